@@ -6,10 +6,11 @@
 People of `datasets/headset-guided.toml` do what `headset-guided.csv` says, in a seat of the headset; they are the same
 people as those of `headset-test.toml`, who sit otherwise there. Each person's minute is calibrated as
 `regress headset calibrate` does it. Errors are of the sixteen faces behind the minute in the same seat, and of ordinary
-frames of the other dataset in two other seats. Shut eyes and rest are the minute's own frames: after the minute these
-figures are of a fit, and say nothing of later frames. `--soft` blurs all pictures first, as a camera out of focus does.
-How far people open their eyes at rest is compared over people, as traced and as labelled. Prints Markdown, which stands
-in docs/measurements/headset-networks.md.
+frames of the other dataset in two other seats. Glances are read behind the frames of the look,
+as live at 30 a second. Shut eyes and rest are the minute's own frames: after the minute these figures are of a fit, and
+say nothing of later frames. `--soft` blurs all pictures first, as a camera out of focus does. How far people open their
+eyes at rest is compared over people, as traced and as labelled. Prints Markdown, which stands in
+docs/measurements/headset-networks.md.
 """
 
 import argparse
@@ -34,6 +35,7 @@ from regress.runtime.headset.person import OwnEnds, Person
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.runtime.headset.traced_eyes import eye_features
 from regress.runtime.ready_made import model_folder
+from regress.runtime.stages.frame_clock import USUAL_FPS
 
 MINUTE = ((REST, 4), *((face, 2) for face in FACES if face not in (REST, LOOK)), (LOOK, 9))
 """Frames of headset-guided.csv; eight glances and sixteen faces follow."""
@@ -194,7 +196,9 @@ def measure(
     true = minute.gaze[glances].reshape(-1, 2, 2)
     for what, targets in (("before", None), ("5 targets", FIVE), ("9 targets", NINE)):
         own = None if targets is None else person_of(predictor, takes | {LOOK: take(LOOK, targets)})[0]
-        said = gaze(predictor, pictures(minute, glances, predictor), rest, own)
+        # as live, the eyes were seen before
+        rows = np.concatenate([spans[LOOK], glances])
+        said = gaze(predictor, pictures(minute, rows, predictor), rest, own)[-GLANCES:]
         found["", f"gaze of glances, degrees, {what}"].append(float(gaze_error_deg(said, true).mean()))
 
 
@@ -235,7 +239,7 @@ def gaze(
     return np.array(
         [
             reader.read(
-                0.0,
+                1 / USUAL_FPS,
                 {name: one[row] for name, one in seen.items()},
                 {name: one[row] for name, one in traced.items()},
                 estimates.gaze[row].ravel(),

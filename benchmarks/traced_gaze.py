@@ -17,8 +17,9 @@ from facegen.conventions import BLENDSHAPE_INDEX
 from regress.learning.headset.accuracy import gaze_error_deg
 from regress.learning.headset.arrays import read_arrays
 from regress.runtime.headset.eye_points import EyePoints
+from regress.runtime.headset.own_gaze import corrected, fused
 from regress.runtime.headset.predictor import load_headset_predictor
-from regress.runtime.headset.traced_eyes import corrected, eye_features, fused
+from regress.runtime.headset.traced_eyes import eye_features
 
 TARGETS = (0, 1, 5, 9)
 FEWEST_JUDGED = 9

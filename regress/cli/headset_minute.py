@@ -92,6 +92,7 @@ def read_minute(
     from regress.runtime.headset.guided import FACES, LOOK, REST, GuidedTake
     from regress.runtime.headset.levels import levels_in
     from regress.runtime.headset.placement_file import read_placement
+    from regress.runtime.stages.frame_clock import USUAL_FPS
 
     named = {face: text for face, text in zip(FACES, given, strict=False) if text is not None}
     paths = camera_paths(predictor, camera, {name: path for name, path in short.items() if path is not None})
@@ -107,6 +108,7 @@ def read_minute(
         raise InputError("--looked-at is for frames of --look; give --look too")
     whole = read(paths) if paths else None
     notes, pictures, numbers = list(whole.notes) if whole is not None else [], {}, {}
+    rates = {}
     for face, text in named.items():
         option = f"--{face.replace('_', '-')}"
         span = _RANGE.fullmatch(text)
@@ -121,6 +123,7 @@ def read_minute(
         if not chosen.any():
             raise InputError(f"{option} {text}: no frame there has a picture of every camera")
         pictures[face] = {name: frames[chosen] for name, frames in _given(footage).items()}
+        rates[face] = fps or footage.fps or USUAL_FPS
         numbers[face] = {int(number): row for row, number in enumerate(footage.numbers[chosen])}
     known = None
     if labels is not None:
@@ -150,6 +153,7 @@ def read_minute(
             if face == LOOK
             else {},
             distance_m=distance_m,
+            fps=rates.get(face, USUAL_FPS),
         )
         for face, shown in pictures.items()
     }

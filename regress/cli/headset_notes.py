@@ -12,6 +12,7 @@ from regress.runtime.headset.orientation import told_by_compass, told_orientatio
 from regress.runtime.headset.points import check_points
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.temporal import TAPS
+from regress.runtime.headset.traced_eyes import TracedEye
 
 _SAME_RATE = 0.05
 """Relative difference of frame rates that --temporal does not speak of: 29.97 are 30."""
@@ -50,6 +51,13 @@ def level_notes(footage: Footage, predictor: HeadsetPredictor) -> Iterator[str]:
                 f"{name}: its grey levels are {low:.0f} to {high:.0f}, and become {known.low[1]:.0f} to "
                 f"{known.high[1]:.0f}, as in training"
             )
+
+
+def target_notes(eyes: Mapping[str, TracedEye]) -> Iterator[str]:
+    """A sentence for each target that says nothing of an eye."""
+    for name, eye in eyes.items():
+        for number in eye.left_out:
+            yield f"--looked-at {number}: {name} was shut or looked elsewhere there; the target is left out"
 
 
 def seat_notes(reseated: tuple[str, ...], *, keep_neutral: bool) -> Iterator[str]:

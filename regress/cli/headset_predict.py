@@ -166,7 +166,14 @@ def predict(
         targets_of,
         told_of,
     )
-    from regress.cli.headset_notes import check_model, level_notes, rate_note, seat_notes, tell_of
+    from regress.cli.headset_notes import (
+        check_model,
+        level_notes,
+        rate_note,
+        seat_notes,
+        target_notes,
+        tell_of,
+    )
     from regress.cli.headset_person import neutrals_of, read_own, tell_of_views
     from regress.cli.output import output_of
     from regress.cli.results import check_targets, needs_times, write_prediction
@@ -263,10 +270,12 @@ def predict(
         keep_neutral=keep_neutral,
         temporal=temporal,
         person=own,
+        still=dataset is not None,
         say=say,
     )
     of_rate = rate_note(predictor.model.temporal.fps, footage.fps) if temporal else ()
-    for note in (*seat_notes(reseated, keep_neutral=keep_neutral), *of_rate):
+    of_seat = seat_notes(reseated, keep_neutral=keep_neutral)
+    for note in (*target_notes(found or {}), *of_seat, *of_rate):
         say(note)
     if points is not None:
         write_whole(points, points_csv(predictor, footage))

@@ -1,20 +1,20 @@
 """Reads both eyes of a frame: lids, pupils and gaze, by what the network traces and says, and by what is known of the
 person."""
 
-from collections import deque
 from collections.abc import Mapping
 
 import numpy as np
 
+from regress.runtime.headset.eye_corners import EyeCorners, between_corners, calm_corners
 from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
+from regress.runtime.headset.gaze_lead import GazeLead
+from regress.runtime.headset.gaze_map import IRIS_MM, gaze_map
+from regress.runtime.headset.iris_diameter import IrisDiameter, diameter_of, mean_length
 from regress.runtime.headset.person import OwnEye, Person
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.pupils import pupil_share
 from regress.runtime.headset.vergence import meeting
 from regress.runtime.sample import EyeMeasures
-
-IRIS_MM = 11.7
-"""Diameter of an iris, nearly the same in all people (F. Rüfer et al., "White-to-white corneal diameter", 2005)."""
 
 HALF_SHUT = 0.5
 """Openness below which an eye's pupil is hidden in part: its gaze then follows the other eye's."""
@@ -24,13 +24,6 @@ _UNSEEN_DEG = 100.0
 
 HIDDEN_DEG = 20.0
 """Error of the gaze of an eye that is shut."""
-
-_KEEP_EVERY_S, _MEMORY = 0.025, 300
-"""Diameters are kept no oftener, and so many; their median is the iris's. It spans 7.5 seconds or more, in which eyes
-are open for most: a half-hidden iris is traced too small."""
-
-_SETTLED = 30
-"""Diameters of which a median changes little by one more."""
 
 _USUAL_OPENNESS = 0.85
 """Lids of the mean of training's frames, over those of the resting eye: some of these frames are shut. Neutral frames
@@ -65,14 +58,14 @@ class EyeReader:
             for name in predictor.sizes
             if traces_an_eye(predictor, name) and name in looks
         }
-        self._maps = {
-            name: None if looks[name].gaze is None else np.array(looks[name].gaze) for name in self._eyes
-        }
+        self._maps = {name: gaze_map(predictor, name) for name in self._eyes}
         self.sides = {
             name: int(any(point.startswith("right_pupil") for point in predictor.model.points[name]))
             for name in self._eyes
         }
-        self._irises = {name: _IrisDiameter() for name in self._eyes}
+        self._irises = {name: IrisDiameter() for name in self._eyes}
+        self._corners = {name: EyeCorners() for name in self._eyes}
+        self._leads = {name: GazeLead() for name in self._eyes}
         # the eyes' turns do not fall on one frame
         self._pupils = {name: _Pupil(first_s=side * _PUPIL_EVERY_S / 2) for name, side in self.sides.items()}
         self._usual = {
@@ -121,13 +114,11 @@ class EyeReader:
         for name, eye in self._eyes.items():
             if name not in points or name not in pictures:
                 self._pupils[name].forget()
+                self._corners[name].forget()
                 continue
             side, seen = self.sides[name], points[name].astype(np.float64)
-            diameter = self._irises[name].step(seconds, diameter_of(seen, eye))
             own = self._own.get(name, OwnEye())
-            apart_mm = IRIS_MM * _apart(seen, eye) / diameter
-            known = own if own.rest_mm is not None and own.shut_mm is not None else self._usual[name]
-            open_to = known.openness(apart_mm)
+            apart_mm, open_to = self._learn(name, own, seconds, seen, direct[side])
             if self._pupils[name].due(seconds):
                 self._pupils[name].share = pupil_share(pictures[name], seen, eye)
             hidden = np.clip(1 - open_to / HALF_SHUT, 0, 1) if np.isfinite(open_to) else 0.0
@@ -136,61 +127,80 @@ class EyeReader:
                 continue  # another camera of this eye is surer
             openness_mm[side], openness[side], variance[side] = apart_mm, open_to, error
             pupil[side] = self._pupils[name].share
-            gaze_deg[side] = self._own_gaze(name, own, seen, diameter, direct[side])
+            gaze_deg[side] = self._own_gaze(name, own, seen, direct[side])
         met = meeting(gaze_deg[None], variance)[0]
         measured = EyeMeasures(openness_mm=openness_mm, openness=openness, pupil=pupil)
         return measured, np.radians(met).ravel()
 
-    def traced_gaze(self, camera: str, points: np.ndarray, diameter: float | None = None) -> np.ndarray:
-        """Yaw and pitch (2,) in degrees of a pupil between the eye's corners; NaN of models without such a map.
+    def led(
+        self, seconds: float, points: Mapping[str, np.ndarray], gaze_rad: np.ndarray
+    ) -> tuple[np.ndarray, float]:
+        """Gaze (4,) in radians by the answer that leads of each eye, and how much traced points count at most.
 
-        ``diameter`` is the iris's; the median of the frames that were read without.
+        Nothing is measured, and eyes need not meet: where the network's own answer leads, it stays as it is.
         """
-        if self._maps[camera] is None:
-            return np.full(2, np.nan)
-        eye = self._eyes[camera]
-        diameter = self._irises[camera].median if diameter is None else diameter
-        corners = points[[eye.upper[0], eye.upper[-1]]].mean(axis=0)
-        return self._maps[camera] @ np.append((points[eye.pupil] - corners) / diameter, 1.0)
+        gaze_deg, most = np.degrees(gaze_rad).reshape(2, 2), 0.0
+        for name, seen in points.items():
+            if name not in self._eyes:
+                continue
+            side, seen = self.sides[name], seen.astype(np.float64)
+            direct = gaze_deg[side].copy()
+            self._learn(name, OwnEye(), seconds, seen, direct)
+            if self._leads[name].share:
+                traced = self.traced_gaze(name, seen, self._corners[name].middle)
+                gaze_deg[side] = self._leads[name].led(traced, direct)
+                most = max(most, self._leads[name].share)
+        return (np.radians(gaze_deg).ravel() if most else gaze_rad), most
 
-    def _own_gaze(
-        self, camera: str, own: OwnEye, points: np.ndarray, diameter: float, direct_deg: np.ndarray
+    def _learn(
+        self, name: str, own: OwnEye, seconds: float, seen: np.ndarray, direct_deg: np.ndarray
+    ) -> tuple[float, float]:
+        """Lids' distance of a frame's points (P, 2) in mm and as a share; iris, corners and lead are learnt of it."""
+        eye = self._eyes[name]
+        diameter = self._irises[name].step(seconds, diameter_of(seen, eye))
+        apart_mm = IRIS_MM * _apart(seen, eye) / diameter
+        known = own if own.rest_mm is not None and own.shut_mm is not None else self._usual[name]
+        open_to = known.openness(apart_mm)
+        shut = open_to < HALF_SHUT
+        corners = self._corners[name].step(seconds, between_corners(seen, eye), iris=diameter, shut=shut)
+        pupil = min(max(open_to / HALF_SHUT, 0.0), 1.0) if np.isfinite(open_to) else 1.0
+        self._leads[name].step(seconds, self.traced_gaze(name, seen, corners), direct_deg, seen=pupil)
+        return apart_mm, open_to
+
+    def traced_gaze(self, camera: str, points: np.ndarray, corners: np.ndarray) -> np.ndarray:
+        """Yaw and pitch (..., 2) in degrees of pupils of points (..., P, 2) between calm corners (..., 2).
+
+        The iris is as large as in the frames that were read. NaN of models without such a map.
+        """
+        one = self._maps[camera]
+        if one is None:
+            return np.full(corners.shape, np.nan)
+        pupil = (points[..., self._eyes[camera].pupil, :] - corners) / self._irises[camera].median
+        return pupil @ one[:, :2].T + one[:, 2]
+
+    def traced_take(
+        self, camera: str, points: np.ndarray, *, shut: np.ndarray, seconds: np.ndarray
     ) -> np.ndarray:
-        """Both answers (2,) in degrees, each set right, by their shares; the direct one where nothing is known."""
+        """The same (n, 2) of a take's points (n, P, 2) that was read, with the corners of the frames about each."""
+        iris = self._irises[camera].median
+        corners = calm_corners(points, self._eyes[camera], iris=iris, shut=shut, seconds=seconds)
+        return self.traced_gaze(camera, points, corners)
+
+    def _own_gaze(self, camera: str, own: OwnEye, points: np.ndarray, direct_deg: np.ndarray) -> np.ndarray:
+        """Both answers (2,) in degrees, each set right, by their shares; where targets did not say, by which leads."""
+        lead, traced = self._leads[camera], self.traced_gaze(camera, points, self._corners[camera].middle)
         if own.traced is None and own.direct is None:
-            return direct_deg
+            return lead.led(traced, direct_deg)
+        traced_share = own.traced_share or lead.share
         answers, shares = [], []
-        traced = self.traced_gaze(camera, points, diameter)
         for answer, affine, share in (
-            (traced, own.traced, own.traced_share),
-            (direct_deg, own.direct, 1 - own.traced_share),
+            (traced, own.traced, traced_share),
+            (direct_deg, own.direct, 1 - traced_share),
         ):
             if affine is not None and np.isfinite(answer).all():
                 answers.append(np.array(affine) @ np.append(answer, 1.0))
                 shares.append(share)
         return np.average(answers, axis=0, weights=shares) if sum(shares) > 0 else direct_deg
-
-
-class _IrisDiameter:
-    """Median of an iris's diameter in pixels, which changes with the seat alone: counted anew now and then."""
-
-    def __init__(self) -> None:
-        self.held: float | None = None
-        self.median = float("nan")
-        self._kept: deque[float] = deque(maxlen=_MEMORY)
-        self._count, self._since_s = 0, float("inf")
-
-    def step(self, seconds: float, diameter: float) -> float:
-        """The median, with a frame's diameter where one is due."""
-        self._since_s += seconds
-        if self.held is not None:
-            self.median = self.held
-        elif self._since_s > _KEEP_EVERY_S - _ROUNDING_S:
-            self._kept.append(diameter)
-            self._count, self._since_s = self._count + 1, 0.0
-            if self._count < _SETTLED or self._count % _SETTLED == 0:
-                self.median = float(np.median(self._kept))
-        return self.median
 
 
 class _Pupil:
@@ -220,16 +230,5 @@ class _Pupil:
         return True
 
 
-def diameter_of(points: np.ndarray, eye: EyePoints) -> float:
-    """Of the iris, pixels; its points lie evenly on an ellipse."""
-    iris = points[eye.iris]
-    return 2 * _mean_length(iris - iris.sum(axis=0) / len(iris))
-
-
 def _apart(points: np.ndarray, eye: EyePoints) -> float:
-    return _mean_length(points[eye.upper] - points[eye.lower])
-
-
-def _mean_length(rows: np.ndarray) -> float:
-    """Of vectors (n, 2); a third of the time of `numpy.linalg.norm` for as few."""
-    return float(np.hypot(rows[:, 0], rows[:, 1]).sum() / len(rows))
+    return mean_length(points[eye.upper] - points[eye.lower])

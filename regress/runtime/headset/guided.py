@@ -7,8 +7,10 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLINK_INDICES, EYE_LOOK_INDICES
 from regress.errors import InputError
-from regress.runtime.headset.eye_reader import EyeReader
+from regress.runtime.headset.eye_reader import HALF_SHUT, EyeReader
+from regress.runtime.headset.guided_gaze import gaze_centred, gaze_of_targets
 from regress.runtime.headset.person import (
+    HIGHEST_KEPT,
     HIGHEST_REST,
     LEAST_SPAN,
     OwnEye,
@@ -17,7 +19,8 @@ from regress.runtime.headset.person import (
     packed_picture,
 )
 from regress.runtime.headset.predictor import HeadsetPredictor
-from regress.runtime.headset.traced_eyes import own_gaze
+from regress.runtime.headset.traced_eyes import OWN_OPENNESS
+from regress.runtime.stages.frame_clock import USUAL_FPS
 
 REST, LOOK = "rest", "look"
 
@@ -44,8 +47,8 @@ WAY_INTO_FACE = 1 / 3
 _SHUT = 0.7
 """Of the lids' distance at rest, above which lids are not shut, or not seen."""
 
-_MISSED_DEG = 8.0
-"""Off its targets by more than this a gaze is of other targets: eyes miss by 3 degrees in headsets that were drawn."""
+_MISREAD = 4
+"""Shapes that a network reads high in a face at rest before cameras unlike the training's: as many were seen."""
 
 _LEAST_REST = 0.005
 """Reading at rest below which a shape is left out of the file."""
@@ -53,10 +56,6 @@ _LEAST_REST = 0.005
 _CLEARLY = 0.8
 """Share from which traced lids count: lids follow the gaze too, so where eyeBlink reads well they cost 3 % of accuracy.
 """
-
-HALF_APART_M = 0.0315
-"""From between the eyes to one of them: half of 63 mm (N. Dodgson, "Variation and extrema of human interpupillary
-distance", 2004)."""
 
 _LEAST_ERROR = 0.02
 """Of a blink in own units: what any reading is off by."""
@@ -74,19 +73,24 @@ class GuidedTake:
         Yaw and pitch of what was looked at from between the eyes, by frame.
     distance_m
         Of what was looked at: near targets turn both eyes inwards.
+    fps
+        Frames a second.
     """
 
     pictures: Mapping[str, np.ndarray]
     targets_deg: Mapping[int, tuple[float, float]]
     distance_m: float = np.inf
+    fps: float = USUAL_FPS
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Readings:
-    """What a network says of a take's frames: weights (n, 52), openness (n, 2) in mm, answers (n, 2) of each eye."""
+    """What a network says of a take's frames: weights (n, 52), openness (n, 2) in mm and as a share of the take's own,
+    answers (n, 2) of each eye."""
 
     weights: np.ndarray
     openness_mm: np.ndarray
+    openness: np.ndarray
     traced_deg: Mapping[str, np.ndarray]
     direct_deg: Mapping[str, np.ndarray]
 
@@ -125,12 +129,11 @@ def person_of(
     readings = {face: _read(predictor, reader, take, neutral) for face, take in takes.items()}
     at_rest = np.median(readings[REST].weights, axis=0)
     # where somebody looks at rest is theirs
-    worst = int(np.argmax(np.where([name in looks for name in BLENDSHAPES], 0.0, at_rest)))
-    if at_rest[worst] > HIGHEST_REST:
-        raise InputError(
-            f"--{REST}: {BLENDSHAPES[worst]} reads {at_rest[worst]:.2f} there; at most {HIGHEST_REST} is a resting face"
-        )
+    strange = _strange(
+        {name: value for name, value in zip(BLENDSHAPES, at_rest, strict=True) if name not in looks}
+    )
     full, notes = _full(readings, at_rest)
+    notes += strange
     eyes = {}
     for camera, side in reader.sides.items():
         if camera in takes[REST].pictures:
@@ -139,7 +142,7 @@ def person_of(
     person = Person(
         network_sha256=predictor.model.network_sha256,
         rest={
-            name: round(float(value), 4)
+            name: round(float(min(value, HIGHEST_KEPT)), 4)
             for name, value in zip(BLENDSHAPES, at_rest, strict=True)
             if value >= _LEAST_REST and name not in looks
         },
@@ -148,6 +151,26 @@ def person_of(
         neutral={} if neutral is None else {name: packed_picture(kept[name][row]) for name in neutral},
     )
     return person, tuple(notes)
+
+
+def _strange(at_rest: Mapping[str, float]) -> list[str]:
+    """A sentence for each shape that reads high in a face at rest: a network may take a face for one that it makes.
+
+    Raises
+    ------
+    InputError
+        Where these are more than `_MISREAD`, or eyes are shut: then nobody was at rest.
+    """
+    high = sorted((name for name, value in at_rest.items() if value > HIGHEST_REST), key=at_rest.get)[::-1]
+    if len(high) > _MISREAD or any(BLENDSHAPE_INDEX[name] in BLINK_INDICES for name in high):
+        worst = high[0]
+        raise InputError(
+            f"--{REST}: {worst} reads {at_rest[worst]:.2f} there; at most {HIGHEST_REST} is a resting face"
+        )
+    return [
+        f"{REST}: the network reads {name} {at_rest[name]:.2f} there, where {HIGHEST_REST} is high; it counts as rest"
+        for name in high
+    ]
 
 
 def neutral_row(predictor: HeadsetPredictor, pictures: Mapping[str, np.ndarray]) -> int:
@@ -164,17 +187,29 @@ def _read(
 ) -> Readings:
     estimates, traced = predictor.see(take.pictures, neutral=neutral)
     count = len(estimates.weights)
-    openness, found = [], {name: np.full((count, 2), np.nan) for name in reader.sides if name in traced}
+    openness_mm = np.empty((count, 2))
     for row in range(count):
         points = {name: pixels[row] for name, pixels in traced.items()}
         frame = {name: frames[row] for name, frames in take.pictures.items()}
-        openness.append(reader.read(0.0, frame, points, estimates.gaze[row].ravel())[0].openness_mm)
-        for name, gaze in found.items():
-            gaze[row] = reader.traced_gaze(name, points[name].astype(np.float64))
+        openness_mm[row] = reader.read(0.0, frame, points, estimates.gaze[row].ravel())[0].openness_mm
+    seen = np.isfinite(openness_mm).any(axis=0)
+    openness = np.full((count, 2), np.nan)
+    openness[:, seen] = openness_mm[:, seen] / np.nanpercentile(openness_mm[:, seen], OWN_OPENNESS, axis=0)
+    found = {
+        name: reader.traced_take(
+            name,
+            traced[name].astype(np.float64),
+            shut=openness[:, side] < HALF_SHUT,
+            seconds=np.full(count, 1 / take.fps),
+        )
+        for name, side in reader.sides.items()
+        if name in traced
+    }
     direct = np.degrees(estimates.gaze.astype(np.float64))
     return Readings(
         weights=estimates.weights.astype(np.float64),
-        openness_mm=np.array(openness),
+        openness_mm=openness_mm,
+        openness=openness,
         traced_deg=found,
         direct_deg={name: direct[:, reader.sides[name]] for name in found},
     )
@@ -221,38 +256,24 @@ def _own_eye(
         )
         shut = None
     gaze = {}
-    if looked and takes[LOOK].targets_deg:
-        rows = list(takes[LOOK].targets_deg)
-        targets = np.array([takes[LOOK].targets_deg[row] for row in rows], dtype=np.float64)
-        inwards = np.degrees(
-            np.arctan(HALF_APART_M / takes[LOOK].distance_m * np.cos(np.radians(targets[:, 0])))
-        )
-        targets[:, 0] += (-inwards, inwards)[side]
-        answers = [each[camera][rows] for each in (readings[LOOK].traced_deg, readings[LOOK].direct_deg)]
-    elif looked:
-        # without targets: the middle of what was looked at lies ahead
-        answers = [
-            np.quantile(each[camera], [0.1, 0.9], axis=0).mean(axis=0, keepdims=True)
-            for each in (readings[LOOK].traced_deg, readings[LOOK].direct_deg)
-        ]
-        targets = np.zeros((1, 2))
-    else:
-        answers, targets = [], np.zeros((0, 2))
-    # of models without a map from points to the gaze no points say anything of it
-    names = [
-        name for name, each in zip(("traced", "direct"), answers, strict=False) if np.isfinite(each).all()
-    ]
-    if len(targets) and "direct" in names:
-        own = own_gaze([each for each in answers if np.isfinite(each).all()], targets)
-        gaze = {name: tuple(map(tuple, one.tolist())) for name, one in zip(names, own.maps, strict=True)}
-        # few targets do not show which answer is the better one; in the training's own headset it is the direct one
-        gaze["traced_share"] = float(own.shares[0]) if own.decided and "traced" in names else 0.0
-        gaze["error_deg"] = own.error_deg
-        if own.error_deg > _MISSED_DEG:
-            notes.append(
-                f"look: {camera} is off its targets by {own.error_deg:.0f} degrees even so; are their signs (left and "
-                f"up are positive) and frame numbers right?"
+    if looked:
+        reading, take = readings[LOOK], takes[LOOK]
+        answers = {"traced": reading.traced_deg[camera], "direct": reading.direct_deg[camera]}
+        # of models without a map from points to the gaze no points say anything of it
+        answers = {name: each for name, each in answers.items() if np.isfinite(each).any()}
+        if take.targets_deg:
+            gaze, said = gaze_of_targets(
+                camera,
+                side,
+                answers,
+                reading.openness[:, side],
+                take.targets_deg,
+                distance_m=take.distance_m,
+                fps=take.fps,
             )
+            notes += said
+        else:
+            gaze = gaze_centred(answers)
     return OwnEye(
         shut_mm=shut,
         rest_mm=rest,

@@ -39,7 +39,10 @@ class HeadsetNetworks(Stage):
     levels
         Levels pictures as they come, and neutral ones alike; None takes both as they are.
     reader
-        Measures the eyes and sets the gaze; None leaves both.
+        Measures the eyes and sets the gaze; without, nothing is measured, and the gaze is the network's own as long as
+        no camera is so unlike the training's that traced points lead (``regress.runtime.headset.gaze_lead``).
+    still
+        Whether frames are of many people, of whom nothing can be learnt from one to the next.
     person
         Whose own ends count, with a reader.
     """
@@ -52,11 +55,13 @@ class HeadsetNetworks(Stage):
         keep_neutral: bool = False,
         levels: Levels | None = None,
         reader: EyeReader | None = None,
+        still: bool = False,
         person: Person | None = None,
     ) -> None:
         self._predictor, self._clock, self._keep = predictor, FrameClock(fps), keep_neutral
         self._levels = levels
         self._reader = reader
+        self._leader = EyeReader(predictor) if reader is None and not still else None
         self._points: Mapping[str, np.ndarray] = {}
         self._ends = None if person is None or reader is None else OwnEnds.of(person, reader.sides)
         scored = predictor.model.scores is not None
@@ -69,7 +74,7 @@ class HeadsetNetworks(Stage):
 
     @property
     def traced(self) -> dict[str, np.ndarray]:
-        """Pixels (P, 2) of the points of the last frame, by camera; with a reader alone."""
+        """Pixels (P, 2) of the points of the last frame, by camera; of still frames with a reader alone."""
         return {name: points[0] for name, points in self._points.items()}
 
     def use_neutral(self, pictures: Mapping[str, np.ndarray] | None) -> None:
@@ -107,7 +112,9 @@ class HeadsetNetworks(Stage):
             gaze=estimates.gaze[0].astype(np.float64).reshape(4),
             confidence=trust,
         )
-        return answer if self._reader is None else self._with_eyes(answer, seen.pictures, seconds)
+        if self._reader is not None:
+            return self._with_eyes(answer, seen.pictures, seconds)
+        return answer if self._leader is None else self._led(answer, seconds)
 
     def compared(self, pictures: Mapping[str, np.ndarray]) -> np.ndarray:
         """Weights (n, 52) of frames of before, (n, h, w) uint8 by camera, compared with the neutral pictures in use.
@@ -127,6 +134,15 @@ class HeadsetNetworks(Stage):
         weights = weights.copy()
         weights[LOOKS] = look_weights(gaze)
         return replace(sample, weights=weights, gaze=gaze, eyes=eyes)
+
+    def _led(self, sample: Sample, seconds: float) -> Sample:
+        """The sample with the gaze of traced points, as far as they lead."""
+        gaze, share = self._leader.led(seconds, self.traced, sample.gaze)
+        if not share:
+            return sample
+        weights = sample.weights.copy()
+        weights[LOOKS] += share * (look_weights(gaze) - weights[LOOKS])
+        return replace(sample, weights=weights, gaze=gaze)
 
     def _estimate(self, sample: Sample, seconds: float) -> tuple[Estimates, bool]:
         """What the network says, and whether it compared the frame with neutral pictures."""
@@ -161,8 +177,8 @@ class HeadsetNetworks(Stage):
         return partly_compared(compared, self._see(pictures), known=known, lost=lost)
 
     def _see(self, pictures: Mapping[str, np.ndarray], **neutral: object) -> Estimates:
-        """Estimates; what is traced is kept, where anybody measures by it."""
-        if self._reader is None:
+        """Estimates; what is traced is kept, where anybody goes by it."""
+        if self._reader is None and self._leader is None:
             return self._predictor.predict(pictures, **neutral)
         estimates, self._points = self._predictor.see(pictures, **neutral)
         return estimates

@@ -45,8 +45,10 @@ LEAST_SPAN = 0.15
 """Between readings of rest and of a full movement, below which the network does not see it, or it was not made."""
 
 HIGHEST_REST = 0.5
-"""Reading at rest; above it the face was not at rest, or the pictures are none of the network's."""
+"""Reading at rest; where more than a few shapes are above it, or a blink is, the face was not at rest."""
 
+HIGHEST_KEPT = 0.9
+"""Reading at rest that is taken away at most: what is left of the range would be noise."""
 
 _WIDEST_MM = 40.0
 """Between a person's lids: more is an iris that was traced too small, by which millimetres are counted."""
@@ -123,7 +125,7 @@ class Person:
     kind: Literal["headset-person"] = "headset-person"
     version: Literal[1] = 1
     network_sha256: Annotated[str, Len(0, 64)] = ""
-    rest: dict[str, Annotated[float, Ge(0), Le(HIGHEST_REST)]] = field(default_factory=dict)
+    rest: dict[str, Annotated[float, Ge(0), Le(HIGHEST_KEPT)]] = field(default_factory=dict)
     full: dict[str, Annotated[float, Ge(LEAST_SPAN), Le(1)]] = field(default_factory=dict)
     eyes: Annotated[dict[str, OwnEye], Len(0, MOST_CAMERAS)] = field(default_factory=dict)
     neutral: Annotated[dict[str, Annotated[str, Len(0, MOST_PICTURE_CHARACTERS)]], Len(0, MOST_CAMERAS)] = (

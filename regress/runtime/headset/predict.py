@@ -109,6 +109,7 @@ def predict_footage(
     keep_neutral: bool = False,
     temporal: bool = False,
     person: Person | None = None,
+    still: bool = False,
     say: Callable[[str], None] = lambda message: None,
 ) -> tuple[Prediction, tuple[str, ...]]:
     """Weights, gaze and confidence of a recording: each frame as `HeadsetStream` steps it, but for levels.
@@ -123,6 +124,8 @@ def predict_footage(
         Each counts from its row to the next one's; the first from the beginning, wherever it was taken.
     output, keep_neutral, temporal, person, say
         As `HeadsetStream` takes them.
+    still
+        Whether frames are of many people, as a dataset's are.
 
     Returns
     -------
@@ -140,6 +143,7 @@ def predict_footage(
         predictor,
         keep_neutral=keep_neutral,
         reader=None if person is None else EyeReader(predictor, person),
+        still=still,
         person=person,
     )
     after = _after_networks(predictor, output, say, temporal=temporal)

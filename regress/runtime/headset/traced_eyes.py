@@ -1,11 +1,10 @@
 """Reads from an eye's traced points how far its lids are open and where it looks, set right by what was looked at.
 
-The unit of length is the iris, nearly the same in all people. Where the eye looks follows from
-where the pupil lies between the eye's corners, by a linear map that training's labels have given for each camera (its
-pose and the eyeball's size are in it). That map is of the training's rig and of the mean person; targets that a person
-has looked at correct it for the person, camera and seat. The network's direct answer is corrected alike, and both are
-fused by how far each is off at the targets: of a camera unlike the training's the direct one says little. Where both
-eyes have a camera, their lines of sight meet in front (``regress.runtime.headset.vergence``).
+The unit of length is the iris, nearly the same in all people. Where the eye looks follows from where the pupil lies
+between the eye's corners, by a linear map (`regress.runtime.headset.gaze_map`) that is of the mean person. Targets that
+a person has looked at correct it for the person, camera and seat. The network's direct answer is corrected alike, and
+both are fused by how far each is off at the targets: of a camera unlike the training's the direct one says little.
+Where both eyes have a camera, their lines of sight meet in front (``regress.runtime.headset.vergence``).
 """
 
 import csv
@@ -16,25 +15,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from regress.errors import InputError
+from regress.runtime.headset.eye_corners import between_corners, calm_corners
 from regress.runtime.headset.eye_points import EyePoints, traces_an_eye
-from regress.runtime.headset.eye_reader import HALF_SHUT, HIDDEN_DEG, IRIS_MM
+from regress.runtime.headset.eye_reader import HALF_SHUT, HIDDEN_DEG
 from regress.runtime.headset.footage import Footage
+from regress.runtime.headset.gaze_lead import led_take
+from regress.runtime.headset.gaze_map import IRIS_MM, gaze_map
+from regress.runtime.headset.glances import glances
+from regress.runtime.headset.own_gaze import FEWEST_TARGETS, own_gaze
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.pupils import pupil_share
 from regress.runtime.headset.vergence import meeting
+from regress.runtime.stages.frame_clock import FrameClock
 
 OWN_OPENNESS = 90.0
 """Percentile of a take's openness that counts as the person's own: wide eyes are above."""
-
-FEWEST_TARGETS = 3
-"""That say how far an answer is off: one or two are met by any map."""
-
-_LEAST_DEG = 0.5
-"""Error that any answer has: people look no nearer to a target."""
-
-_STEADY_DEG = 10.0
-"""Root of the trust in the mean person's map against a target that was looked at to a degree: five targets decide, one
-moves the map and leaves its slopes."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,6 +48,8 @@ class TracedEye:
         Yaw to the subject's left and pitch upwards.
     error_deg : (n,) float64
         Of the gaze: at the targets, and more where the eye is half shut.
+    left_out
+        Numbers of frames whose targets say nothing: the eye was shut then, or looked elsewhere.
     """
 
     openness_mm: np.ndarray
@@ -60,6 +57,7 @@ class TracedEye:
     pupil: np.ndarray
     gaze_deg: np.ndarray
     error_deg: np.ndarray
+    left_out: tuple[int, ...] = ()
 
 
 def eye_features(points: np.ndarray, eye: EyePoints) -> tuple[np.ndarray, np.ndarray]:
@@ -70,98 +68,34 @@ def eye_features(points: np.ndarray, eye: EyePoints) -> tuple[np.ndarray, np.nda
     points : (n, P, 2)
         Pixels of what the camera traces.
     """
+    diameter = iris_diameter(points, eye)
+    apart = np.linalg.norm(points[:, eye.upper] - points[:, eye.lower], axis=2).mean(axis=1)
+    return (points[:, eye.pupil] - between_corners(points, eye)) / diameter, apart / diameter
+
+
+def iris_diameter(points: np.ndarray, eye: EyePoints) -> float:
+    """Of a take's points (n, P, 2), in pixels; NaN where no frame shows the eye."""
     iris = points[:, eye.iris]
     diameter = 2 * np.linalg.norm(iris - iris.mean(axis=1, keepdims=True), axis=2).mean(axis=1)
     # an iris whose half is hidden is traced too small; a take's own hardly changes
-    diameter = np.nanmedian(diameter) if np.isfinite(diameter).any() else np.nan
-    corners = points[:, [eye.upper[0], eye.upper[-1]]].mean(axis=1)
-    apart = np.linalg.norm(points[:, eye.upper] - points[:, eye.lower], axis=2).mean(axis=1)
-    return (points[:, eye.pupil] - corners) / diameter, apart / diameter
+    return float(np.nanmedian(diameter)) if np.isfinite(diameter).any() else float("nan")
 
 
-@dataclass(frozen=True, kw_only=True)
-class OwnGaze:
-    """What sets several answers about one eye's gaze right, and how they become one.
+def calm_pupil(points: np.ndarray, eye: EyePoints, *, shut: np.ndarray, seconds: np.ndarray) -> np.ndarray:
+    """Where the pupil lies (n, 2) in irises between the eye's corners as they were over about a second.
 
     Parameters
     ----------
-    maps
-        (2, 3) of each answer: yaw and pitch in degrees from the answer's yaw and pitch and 1.
-    shares : (answers,)
-        Adding up to 1.
-    error_deg
-        Of all together at the targets.
-    decided
-        Whether there were targets enough to tell which answer is better; the first one stands alone without.
+    points : (n, P, 2)
+        Pixels of what the camera traces in a take.
+    shut : (n,) bool
+        Frames whose lids are more shut than open.
+    seconds : (n,)
+        Since the frame before.
     """
-
-    maps: tuple[np.ndarray, ...]
-    shares: np.ndarray
-    error_deg: float
-    decided: bool = True
-
-    def apply(self, gazes_deg: Sequence[np.ndarray]) -> np.ndarray:
-        """One gaze (n, 2) of the answers (n, 2)."""
-        better = [_mapped(gaze, one) for gaze, one in zip(gazes_deg, self.maps, strict=True)]
-        return np.tensordot(self.shares, np.array(better), axes=1)
-
-
-def correction(looked: np.ndarray, targets_deg: np.ndarray) -> np.ndarray:
-    """Map (2, 3) to targets (k, 2) in degrees from where an answer says they were looked for (k, 2), and 1.
-
-    The slopes and turns of the map stay near those of the mean person as far as the targets say nothing of them: one
-    target moves the map, five or nine over the field decide it.
-    """
-    middle_looked, middle_target = looked.mean(axis=0), targets_deg.mean(axis=0)
-    beside, wanted = looked - middle_looked, targets_deg - middle_target
-    gram = beside.T @ beside + _STEADY_DEG**2 * np.eye(2)
-    slopes = np.linalg.solve(gram, beside.T @ wanted + _STEADY_DEG**2 * np.eye(2)).T
-    return np.column_stack([slopes, middle_target - slopes @ middle_looked])
-
-
-def corrected(gaze_deg: np.ndarray, looked: np.ndarray, targets_deg: np.ndarray) -> np.ndarray:
-    """Gaze (n, 2) in degrees through the `correction` by targets (k, 2) at which it was said to be ``looked``."""
-    return _mapped(gaze_deg, correction(looked, targets_deg))
-
-
-def _mapped(gaze_deg: np.ndarray, one: np.ndarray) -> np.ndarray:
-    return gaze_deg @ one[:, :2].T + one[:, 2]
-
-
-def own_gaze(looked: Sequence[np.ndarray], targets_deg: np.ndarray) -> OwnGaze:
-    """What targets (k, 2) in degrees say of several answers (k, 2) at them.
-
-    An answer counts by the inverse of its squared error at the targets. What all together are off by is told by maps of
-    the other targets: six numbers fit five targets well. Fewer than `FEWEST_TARGETS` show no errors; the first answer
-    then stands alone.
-    """
-    maps = [correction(each, targets_deg) if len(each) else np.eye(2, 3) for each in looked]
-    if len(targets_deg) < FEWEST_TARGETS:
-        return OwnGaze(maps=tuple(maps), shares=np.eye(len(maps))[0], error_deg=1.0, decided=False)
-    off = [_mapped(each, one) - targets_deg for each, one in zip(looked, maps, strict=True)]
-    errors = (np.array(off) ** 2).sum(axis=2).mean(axis=1)
-    shares = 1 / (errors + _LEAST_DEG**2)
-    shares /= shares.sum()
-    together = np.tensordot(shares, [_off_at_others(each, targets_deg) for each in looked], axes=1)
-    error_deg = float(np.sqrt((together**2).sum(axis=1).mean() + _LEAST_DEG**2))
-    return OwnGaze(maps=tuple(maps), shares=shares, error_deg=error_deg)
-
-
-def _off_at_others(looked: np.ndarray, targets_deg: np.ndarray) -> np.ndarray:
-    """By how many degrees (k, 2) an answer is off at each target (k, 2), by the map of all others."""
-    off = np.empty_like(targets_deg)
-    for row in range(len(targets_deg)):
-        others = np.arange(len(targets_deg)) != row
-        off[row] = (
-            _mapped(looked[row : row + 1], correction(looked[others], targets_deg[others])) - targets_deg[row]
-        )
-    return off
-
-
-def fused(gazes_deg: Sequence[np.ndarray], looked: Sequence[int], targets_deg: np.ndarray) -> np.ndarray:
-    """Several answers (n, 2) in degrees as one, each corrected by targets (k, 2) at ``looked`` rows."""
-    rows = list(looked)
-    return own_gaze([gaze[rows] for gaze in gazes_deg], targets_deg).apply(gazes_deg)
+    iris = iris_diameter(points, eye)
+    corners = calm_corners(points, eye, iris=iris, shut=shut, seconds=seconds)
+    return (points[:, eye.pupil] - corners) / iris
 
 
 def traced_eyes(
@@ -187,12 +121,15 @@ def traced_eyes(
     if not cameras:
         raise InputError("no camera that traces an eye has pictures, so nothing is said of eyes")
     for name in cameras:
-        looks = predictor.model.looks.get(name)
-        if looks is None or looks.gaze is None:
+        if gaze_map(predictor, name) is None:
             raise InputError(
                 f"{name}: the model has no map from points to the gaze; train it with this version"
             )
     rows = _rows(footage, targets or {})
+    clock = FrameClock()
+    seconds = np.array([clock.step(sample.time_s) for sample in footage.samples()])
+    time_s = np.cumsum(seconds)
+    targets_deg = np.array(list(rows.values())).reshape(-1, 2)
     pictures = {name: footage.pictures[name] for name in cameras}
     estimates, traced = predictor.graph.see(pictures, present=footage.present)
     direct = np.degrees(estimates.gaze.astype(np.float64))
@@ -201,16 +138,22 @@ def traced_eyes(
         points = traced[name].astype(np.float64)
         points[~footage.present[:, footage.cameras.index(name)]] = np.nan
         eye = EyePoints.of(predictor, name)
-        pupil, apart = eye_features(points, eye)
-        gaze = np.column_stack([pupil, np.ones(len(pupil))]) @ np.array(predictor.model.looks[name].gaze).T
-        seen = [row for row in rows if np.isfinite(gaze[row]).all()]
-        wanted = np.array([rows[row] for row in seen]).reshape(-1, 2)
+        _, apart = eye_features(points, eye)
+        openness = apart / np.nanpercentile(apart, OWN_OPENNESS)
+        pupil = calm_pupil(points, eye, shut=openness < HALF_SHUT, seconds=seconds)
+        gaze = np.column_stack([pupil, np.ones(len(pupil))]) @ gaze_map(predictor, name).T
         answers = [gaze, direct[:, int(_is_right(predictor, name))]]
         if predictor.model.of_many_headsets:
-            # of many headsets the map from points knows none: what the network says itself stands alone
+            # of many headsets the map does not know what is straight ahead: the network's own answer stands alone, led
+            # by points where they move farther
             answers.reverse()
-        own = own_gaze([answer[seen] for answer in answers], wanted)
-        openness = apart / np.nanpercentile(apart, OWN_OPENNESS)
+            if len(rows) < FEWEST_TARGETS:
+                pupil_seen = np.nan_to_num(np.clip(openness / HALF_SHUT, 0, 1))
+                answers[0] = led_take(gaze, answers[0], seen=pupil_seen, seconds=seconds)
+        looked = glances(answers, openness, time_s, list(rows))
+        seen = np.flatnonzero(np.isfinite(looked).all(axis=(0, 2)))
+        own = own_gaze([each[seen] for each in looked], targets_deg[seen])
+        left_out = set(range(len(rows))) - set(seen.tolist()) | {int(seen[each]) for each in own.missed_deg}
         eyes[name] = TracedEye(
             openness_mm=IRIS_MM * apart,
             openness=openness,
@@ -222,6 +165,7 @@ def traced_eyes(
             ),
             gaze_deg=own.apply(answers),
             error_deg=own.error_deg + HIDDEN_DEG * np.clip(1 - openness / HALF_SHUT, 0, 1),
+            left_out=tuple(int(footage.numbers[list(rows)[place]]) for place in sorted(left_out)),
         )
     return _meeting(predictor, eyes)
 

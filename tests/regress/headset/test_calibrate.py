@@ -122,6 +122,34 @@ def test_where_one_looks_at_rest_is_ones_own(run, tmp_path: Path, monkeypatch):
     assert "eyeLook" not in said
 
 
+@pytest.mark.parametrize("high", [1, 2, 4])
+def test_a_few_shapes_that_read_high_at_rest_count_as_rest_and_are_named(
+    run, tmp_path: Path, person: Path, monkeypatch, high: int
+):
+    at_rest = sorted(read_person(person).rest.items(), key=lambda pair: -pair[1])
+    assert not any(name in BLINKS for name, _ in at_rest[:4])
+    monkeypatch.setattr(guided, "HIGHEST_REST", (at_rest[high - 1][1] + at_rest[high][1]) / 2)
+    out = tmp_path / "anna.json"
+    code, _, said = run("headset", "calibrate", *CAMERAS, "--rest", REST, "--out", out)
+    assert code == 0, said
+    named = [name for name, _ in at_rest if f"rest: the network reads {name} " in said]
+    assert set(named) == {name for name, _ in at_rest[:high]}
+    assert "it counts as rest" in said
+
+
+@pytest.mark.parametrize("reading", [0.55, 0.66, 0.9])
+def test_what_reads_high_at_rest_reads_nothing_behind_the_minute(tmp_path: Path, reading: float):
+    own = Person(rest={"mouthSmileLeft": reading})
+    write_person(tmp_path / "anna.json", own)
+    ends = OwnEnds.of(read_person(tmp_path / "anna.json"), {})
+    weights = np.zeros(52)
+    column = BLENDSHAPE_INDEX["mouthSmileLeft"]
+    weights[column] = reading
+    assert ends.apply(weights, None)[column] == 0
+    weights[column] = 1.0
+    assert ends.apply(weights, None)[column] == 1
+
+
 def weights_of(run, tmp_path: Path, *options: object) -> np.ndarray:
     table = tmp_path / "w.csv"
     code, _, said = run("headset", "predict", *CAMERAS, "--out", table, *options)
@@ -161,7 +189,7 @@ def test_a_persons_file_is_read_as_it_was_written(person: Path, tmp_path: Path):
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"rest": {"jawOpen": 0.6}}, "jawOpen"),
+        ({"rest": {"jawOpen": 0.95}}, "jawOpen"),
         ({"rest": {"jaw": 0.1}}, "'jaw' is not one of the 52 ARKit names"),
         ({"eyes": {"left_eye": {"rest_mm": -1}}}, "rest_mm"),
         ({"eyes": {"third_eye": {}}}, "the model has no camera 'third_eye'"),

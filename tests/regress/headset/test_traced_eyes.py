@@ -11,10 +11,12 @@ from hypothesis import strategies as st
 
 from regress.cli.headset_input import read_footage
 from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.eye_reader import HALF_SHUT, IRIS_MM, EyeReader
+from regress.runtime.headset.eye_reader import HALF_SHUT, EyeReader
+from regress.runtime.headset.gaze_map import IRIS_MM
+from regress.runtime.headset.own_gaze import corrected, fused, own_gaze
 from regress.runtime.headset.person import OwnEye, Person
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.runtime.headset.traced_eyes import corrected, eye_features, fused, own_gaze, traced_eyes
+from regress.runtime.headset.traced_eyes import eye_features, traced_eyes
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
 LIDS, IRIS = 12, 8
@@ -125,7 +127,9 @@ def test_predict_writes_eyes_and_takes_what_was_looked_at(run, tmp_path: Path):
         traced, direct = eyes[f"left_eye.{angle}_deg"][seen], weights[f"left_eye_{angle}_deg"][seen]
         assert np.corrcoef(traced, direct)[0, 1] > least
     moved = predicted(run, tmp_path, "--looked-at", "3:-7:5")
-    assert (moved["left_eye.yaw_deg"][3], moved["left_eye.pitch_deg"][3]) == (-7, 5)
+    # the frames about it are of the same look, and count too
+    assert moved["left_eye.yaw_deg"][3] == pytest.approx(-7, abs=1.5)
+    assert moved["left_eye.pitch_deg"][3] == pytest.approx(5, abs=1.5)
 
 
 @pytest.mark.parametrize(
@@ -174,12 +178,15 @@ def test_a_picture_that_does_not_count_says_nothing_of_the_other_eye(tmp_path: P
     assert np.isnan(eyes["right_eye"].gaze_deg[40:]).all()
 
 
-def test_of_many_headsets_the_direct_gaze_stands_alone_where_no_target_decides():
+def test_of_many_headsets_the_direct_gaze_leads_at_home_where_no_target_decides():
     predictor = load_headset_predictor("headset-any")
     footage = read_footage(predictor, None, {"left_eye": TAKE / "left_eye"}, from_start=False, fps=None)
     eyes = traced_eyes(predictor, footage)
     direct, _ = predictor.graph.see({"left_eye": footage.pictures["left_eye"]}, present=footage.present)
-    np.testing.assert_allclose(eyes["left_eye"].gaze_deg, np.degrees(direct.gaze[:, 0]), atol=1e-3)
+    off = np.abs(eyes["left_eye"].gaze_deg - np.degrees(direct.gaze[:, 0]))
+    # by geometry alone the middle would be seventeen degrees lower
+    assert np.median(off) < 0.5
+    assert off.max() < 4
 
 
 def left_eye_seen() -> tuple[HeadsetPredictor, dict[str, np.ndarray], dict[str, np.ndarray]]:
@@ -205,7 +212,15 @@ def test_of_two_cameras_on_one_eye_the_surer_one_says_the_gaze_and_corrects_it_o
             reader._eyes["left_eye"],
             {"left_eye": first, "left_eye_nasal": second},
         )
-        for table in (reader._maps, reader.sides, reader._irises, reader._pupils, reader._usual):
+        for table in (
+            reader._maps,
+            reader.sides,
+            reader._irises,
+            reader._corners,
+            reader._leads,
+            reader._pupils,
+            reader._usual,
+        ):
             table["left_eye_nasal"] = table["left_eye"]
         both = {"left_eye": seen["left_eye"], "left_eye_nasal": seen["left_eye"]}
         _, gaze = reader.read(
@@ -281,3 +296,38 @@ def test_errors_at_targets_are_those_of_fresh_looks(count: int):
         favoured.append(own.shares[0] > 0.5)
     assert np.sqrt(np.mean(said)) == pytest.approx(np.sqrt(np.mean(fresh)), rel=0.25)
     assert np.mean(favoured) > 0.85
+
+
+def test_few_targets_share_answers_by_fresh_looks():
+    """Six numbers bend even an answer that knows nothing to five targets."""
+    rng = np.random.default_rng(5)
+    shares, fresh = [], []
+    for _ in range(400):
+        targets, others = rng.uniform(-20, 20, (2, 5, 2))
+        spreads = (2.0, 30.0)
+        looked, looks = (
+            [true + rng.normal(0, sd, true.shape) for sd in spreads] for true in (targets, others)
+        )
+        shares.append(own_gaze(looked, targets).shares[1])
+        better = [corrected(look, at, targets) for look, at in zip(looks, looked, strict=True)]
+        fresh.append([((look - others) ** 2).sum(axis=1).mean() for look in better])
+    good, bad = np.mean(fresh, axis=0)
+    assert np.mean(shares) < 1.6 * good / (good + bad)
+
+
+def test_predict_names_a_target_that_was_not_looked_at(run, tmp_path: Path):
+    eyes = predicted(run, tmp_path)
+    rows = np.flatnonzero(eyes["left_eye.openness"] > 0.8)[::8][:9]
+    looks = {row: (eyes["left_eye.yaw_deg"][row], eyes["left_eye.pitch_deg"][row]) for row in rows}
+    wrong = int(rows[4])
+    looks[wrong] = (looks[wrong][0] - 25, looks[wrong][1])
+    words = ["headset", "predict", "headset-tracking3", "--left-eye", TAKE / "left_eye", "--eyes"]
+    looked_at = [
+        word for row, (yaw, pitch) in looks.items() for word in ("--looked-at", f"{row}:{yaw}:{pitch}")
+    ]
+    code, _, said = run(*words, tmp_path / "eyes.csv", "--out", tmp_path / "w.csv", *looked_at)
+    assert code == 0, said
+    told = [line for line in said.splitlines() if "--looked-at" in line]
+    assert told == [
+        f"--looked-at {wrong}: left_eye was shut or looked elsewhere there; the target is left out"
+    ]
