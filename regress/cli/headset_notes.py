@@ -1,6 +1,6 @@
 """What `regress headset predict` refuses or says of a model, its footage and how the answers came about."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from facegen.console import say
