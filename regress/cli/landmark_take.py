@@ -71,6 +71,8 @@ def predict_file(
     frames = read_frames(landmarks)
     if fps is not None:
         frames = frames.at_rate(fps)
+    if camera is not None and camera.picture_px is None and camera.focal_px is None:
+        camera = dataclasses.replace(camera, picture_px=frames.picture_px)
     takes = frames.takes()
     main = frames.take(max(takes.values(), key=len))  # a passer-by's rows say nothing of a film's rate
     if len(takes) > 1 and needs_times(table_format, gltf):

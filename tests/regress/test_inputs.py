@@ -295,15 +295,6 @@ def test_frames_whose_points_are_written_as_no_number_have_no_face(cell: str, tm
     assert read_frames(path).usable.tolist() == [True, False, True]
 
 
-def test_a_mesh_in_the_columns_of_68_points_is_refused(tmp_path: Path):
-    """py-feat's detector of MediaPipe writes x_0 to x_477: its first 68 are no face of iBUG's."""
-    path = tmp_path / "mesh.csv"
-    names = [f"{axis}_{index}" for index in range(478) for axis in "xyz"]
-    path.write_text(f"{','.join(names)}\n{','.join('1' for _ in names)}\n")
-    with pytest.raises(InputError, match=r"x_70.*of a mesh, as MediaPipe's"):
-        read_frames(path)
-
-
 def test_pyfeat_rows_with_empty_cells_have_no_face(tmp_path: Path):
     frames = read_frames(_pyfeat(tmp_path / "a.csv", empty=(0,)))
     assert frames.usable.tolist() == [False, True, True]

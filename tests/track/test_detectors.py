@@ -17,13 +17,14 @@ from facegen.conventions import LANDMARK_GROUPS, MIRRORED_LANDMARKS
 from facegen.errors import InputError, MissingAsset
 from regress.runtime.heads.camera import CameraSettings
 from regress.runtime.heads.fit import FACING
+from regress.runtime.inputs.mesh import VERTICES, irises_of, landmarks_of
 from regress.runtime.sample import Sample
 from regress.runtime.stages.head import HeadPose, HeadSettings, angles_of
 from tests.track.faces import HEIGHT, WIDTH, moving, seen, two_faces
 from track.detectors import DETECTORS, FaceFault, MediapipeDetector, PointsDetector, open_detector
 from track.detectors.following import FORGOTTEN_S, Following
 from track.detectors.head import rotation_of, typical_camera
-from track.detectors.mediapipe_points import EYES_CM, LEVEL, VERTICES, head_of, irises_of, landmarks_of
+from track.detectors.mediapipe_head import EYES_CM, LEVEL, head_of
 from track.detectors.model_file import NAME, VARIABLE, WHEEL, model_file
 from track.sources import Pace, open_source
 

@@ -36,6 +36,8 @@ class Frames:
         Of the pictures that the faces are of, none less than the one before, where the file counts them.
     faces : tuple of str or None
         Which of the faces in its picture each is, where pictures of a film have several.
+    picture_px
+        Width and height of the pictures, where the file tells and all have the same.
     """
 
     points: np.ndarray
@@ -45,6 +47,7 @@ class Frames:
     irises: np.ndarray | None = None
     numbers: np.ndarray | None = None
     faces: tuple[str, ...] | None = None
+    picture_px: tuple[int, int] | None = None
 
     @property
     def usable(self) -> np.ndarray:
@@ -61,6 +64,7 @@ class Frames:
             irises=None if self.irises is None else self.irises[rows],
             numbers=None if self.numbers is None else self.numbers[rows],
             faces=None if self.faces is None else tuple(self.faces[row] for row in rows),
+            picture_px=self.picture_px,
         )
 
     def takes(self) -> dict[str | None, np.ndarray]:
