@@ -191,6 +191,15 @@ def test_the_default_lags_by_a_thirtieth_and_slight_steps_no_more():
     assert live_lag_ms(filter_stage(DEFAULT_FILTER), 15, 1.0).max() < 1  # none waits for a frame 67 ms away
 
 
+@pytest.mark.parametrize("rate", [23.976, 24.0, 25.0, 30.0])
+def test_every_frame_of_a_film_waits_for_the_next_one(rate: float):
+    """But the first, whose next nobody expects yet; also where times say by their last digit that it is late."""
+    samples = frames_of(np.zeros((2000, SHAPES)), 1e4 + np.arange(2000) / rate)
+    stage = filter_stage("kalman-33")
+    assert [len(stage.feed(sample)) for sample in samples] == [0 if row == 1 else 1 for row in range(2000)]
+    assert len(stage.finish()) == 1
+
+
 @pytest.mark.parametrize("rate", RATES)
 def test_the_default_calms_a_face_and_keeps_a_blink(rate: int):
     rng = np.random.default_rng(5)

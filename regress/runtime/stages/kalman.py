@@ -31,8 +31,9 @@ they are measured; and a least one, as shapes at rest are cut off at 0 and show 
 _NOISE_RATE = 0.05
 """Share by which the noise's median rises or falls a frame: it doubles in a second of 30 frames."""
 
-_PATIENCE = 1.25
-"""Share of the time to look ahead within which a frame is still waited for: 41 ms of 33, one frame at 24 a second."""
+_PATIENCE = 1.3
+"""Share of the time to look ahead within which a frame is still waited for: 43 ms of 33, one frame of a film's 23.976 a
+second. 1.25 was exactly a frame of 24, and rounding decided."""
 
 
 class NoiseMeter:
