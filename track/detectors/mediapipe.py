@@ -76,8 +76,9 @@ class MediapipeDetector(Stage):
         # MediaPipe measures from the picture's corner in widths and heights; our (0, 0) is the first pixel's centre
         meshes = meshes.reshape(-1, VERTICES, 2) * pixels.shape[1::-1] - 0.5
         faces = landmarks_of(meshes)
-        chosen = self._following.choose(faces, self._last_ms / 1000)
-        if len(faces) > 1 or (len(faces) and chosen is None):
+        time_s = self._last_ms / 1000
+        chosen = self._following.choose(faces, time_s)
+        if len(faces) > 1 or (len(faces) and chosen is None and self._following.others(time_s)):
             nothing = replace(nothing, faults={**sample.faults, "points": FaceFault.OTHERS})
         if chosen is None:
             return nothing
