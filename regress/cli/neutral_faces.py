@@ -54,7 +54,9 @@ def named_rows(take: Frames, neutral: str) -> list[int]:
     A picture of a film has the same name for all of its faces; ``NUMBER/FACE`` is one of them.
     """
     return (
-        _rows_of(take.labels, neutral) or _rows_of(_pictures(take), neutral) or _rows_between(take, neutral)
+        _rows_of(take.labels, neutral)
+        or _rows_of(take.picture_names or (), neutral)
+        or _rows_between(take, neutral)
     )
 
 
@@ -90,19 +92,12 @@ def _called(face: str | None) -> str:
 
 def _rows_between(take: Frames, named: str) -> list[int]:
     """Rows of pictures that are called by numbers, from one to another; some, and the ends too, may be left out."""
-    ends, names = named.split("-"), _pictures(take) or take.labels
+    ends, names = named.split("-"), take.picture_names or take.labels
     called = take.numbers is not None and names[:1] == (str(take.numbers[0]),)
     if not called or len(ends) != 2 or not all(end.isdecimal() for end in ends):
         return []
     first, last = map(int, ends)
     return np.flatnonzero((first <= take.numbers) & (take.numbers <= last)).tolist()
-
-
-def _pictures(take: Frames) -> tuple[str, ...]:
-    """What the pictures are called that a take's rows are of; nothing where its labels say all."""
-    if take.faces is None:
-        return ()
-    return tuple(label.removesuffix(f"/{face}") for label, face in zip(take.labels, take.faces, strict=True))
 
 
 def _rows_of(labels: tuple[str, ...], named: str) -> list[int]:

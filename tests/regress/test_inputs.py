@@ -171,10 +171,10 @@ def test_boxes_that_dlib_ignores_are_no_faces(true: str, tmp_path: Path):
 @pytest.mark.parametrize(
     ("tracks", "takes"),
     [
-        (None, {"1": [0, 2], "2": [1]}),
+        (None, {"1": [0], "2": [1, 2]}),  # the third face is nearer to the second
         ([7, 8, 8], {"7": [0], "8": [1, 2]}),
-        ([7, 7, 8], {"1": [0, 2], "2": [1]}),  # one person twice in a picture
-        ([7, None, 8], {"1": [0, 2], "2": [1]}),
+        ([7, 7, 8], {"1": [0], "2": [1, 2]}),  # one person twice in a picture
+        ([7, None, 8], {"1": [0], "2": [1, 2]}),
     ],
 )
 def test_coco_faces_of_one_picture_are_takes_of_their_own(tracks: list | None, takes: dict, tmp_path: Path):
@@ -350,16 +350,16 @@ def test_faces_of_one_picture_share_its_time_and_have_names_of_their_own(tmp_pat
     ("people", "takes"),
     [
         (["Person_0", "Person_1", "Person_1", "Person_0"], {"Person_0": [0, 3], "Person_1": [1, 2]}),
-        (["Person_0", "Person_0", "Person_1", "Person_0"], {"0": [0, 2], "1": [1, 3]}),
-        (["Person_0", "", "Person_1", "Person_0"], {"0": [0, 2], "1": [1, 3]}),
-        (["", "", "", ""], {"0": [0, 2], "1": [1, 3]}),
+        (["Person_0", "Person_0", "Person_1", "Person_0"], {"0": [0, 3], "1": [1, 2]}),
+        (["Person_0", "", "Person_1", "Person_0"], {"0": [0, 3], "1": [1, 2]}),
+        (["", "", "", ""], {"0": [0, 3], "1": [1, 2]}),
     ],
 )
 @pytest.mark.parametrize("column", ["Identity", "face_id"])
 def test_people_whose_rows_change_order_are_told_by_their_names(
     column: str, people: list[str], takes: dict, tmp_path: Path
 ):
-    """The last frame has no face, and py-feat no name for it."""
+    """Without names by their places. The last frame has no face, and py-feat no name for it."""
     lines = [",".join([*COLUMNS, "frame", column])]
     for frame, face, person in zip("4455", [*FACES, FACES[0]], people, strict=True):
         lines.append(",".join([*_cells(face), frame, person]))

@@ -52,7 +52,7 @@ def read_coco(path: Path) -> Frames:
     """Every annotation is a frame, by image and annotation id; points with v = 0 are missing.
 
     A frame is called by its picture's file name, or ``name/ID`` where a picture has several annotations. Each face of
-    such pictures is a take of its own, by ``track_id`` where all have one, else by its place among those of a picture.
+    such pictures is a take of its own, by ``track_id`` where all have one, else by who was nearest before.
     Annotations without 68 points, as of bodies or boxes alone, are no faces. Pictures without a face have no frame, and
     take their time all the same.
     """
@@ -76,15 +76,17 @@ def read_coco(path: Path) -> Frames:
             f"x y v of {LANDMARK_COUNT} points"
         )
     faces = Counter(entry.image_id for entry in annotations)
-    labels = []
-    for entry in annotations:
-        name = names.get(entry.image_id, str(entry.image_id))
-        labels.append(name if faces[entry.image_id] == 1 else f"{name}/{entry.id}")
+    named = [names.get(entry.image_id, str(entry.image_id)) for entry in annotations]
+    labels = [
+        name if faces[entry.image_id] == 1 else f"{name}/{entry.id}"
+        for name, entry in zip(named, annotations, strict=True)
+    ]
     points = stacked((_face(entry, path) for entry in annotations), path)
     frames = Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
     pictures = sorted(names.keys() | {entry.image_id for entry in document.annotations}, key=_order)
     place = {picture: number for number, picture in enumerate(pictures)}
-    return of_pictures(frames, [place[entry.image_id] for entry in annotations], _tracks(annotations))
+    of = [place[entry.image_id] for entry in annotations]
+    return of_pictures(frames, of, named, _tracks(annotations))
 
 
 def _tracks(annotations: list[_Annotation]) -> list[str] | None:

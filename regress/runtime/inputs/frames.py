@@ -1,7 +1,6 @@
 """Frames of landmarks, whatever file they came from."""
 
-from collections import Counter
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
@@ -10,6 +9,7 @@ import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
 from regress.errors import InputError
+from regress.runtime.inputs.people import people_of
 from regress.runtime.sample import Sample
 
 MOST_FRAMES = 1_000_000
@@ -35,7 +35,9 @@ class Frames:
     numbers : (n,) int64 or None
         Of the pictures that the faces are of, none less than the one before, where the file counts them.
     faces : tuple of str or None
-        Which of the faces in its picture each is, where pictures of a film have several.
+        Who each face is, where pictures of a film have several.
+    picture_names : tuple of str or None
+        What the picture that each is of is called, where pictures have several faces with labels of their own.
     picture_px
         Width and height of the pictures, where the file tells and all have the same.
     """
@@ -47,6 +49,7 @@ class Frames:
     irises: np.ndarray | None = None
     numbers: np.ndarray | None = None
     faces: tuple[str, ...] | None = None
+    picture_names: tuple[str, ...] | None = None
     picture_px: tuple[int, int] | None = None
 
     @property
@@ -63,7 +66,8 @@ class Frames:
             source=self.source,
             irises=None if self.irises is None else self.irises[rows],
             numbers=None if self.numbers is None else self.numbers[rows],
-            faces=None if self.faces is None else tuple(self.faces[row] for row in rows),
+            faces=_rows_of(self.faces, rows),
+            picture_names=_rows_of(self.picture_names, rows),
             picture_px=self.picture_px,
         )
 
@@ -92,7 +96,13 @@ class Frames:
         ]
 
 
-def of_pictures(frames: Frames, pictures: Sequence[int], faces: Sequence[str] | None = None) -> Frames:
+def _rows_of(names: tuple[str, ...] | None, rows: np.ndarray | list[int]) -> tuple[str, ...] | None:
+    return None if names is None else tuple(names[row] for row in rows)
+
+
+def of_pictures(
+    frames: Frames, pictures: Sequence[int], names: Sequence[str], faces: Sequence[str] | None = None
+) -> Frames:
     """The frames with the pictures they are of, in whose order they are; a take each where some have several faces.
 
     Parameters
@@ -101,23 +111,16 @@ def of_pictures(frames: Frames, pictures: Sequence[int], faces: Sequence[str] | 
         Without ``numbers`` and ``faces``.
     pictures
         Place among all pictures of the one that each is of; pictures without a face count, as time passes in them.
+    names
+        What these pictures are called.
     faces
-        Which of the faces each is; by default its place among those of its picture, from 1.
+        Who each is; by default the nearest to who was there before, counted from 1.
     """
     frames = replace(frames, numbers=np.array(pictures, dtype=np.int64))
     if len(set(pictures)) == len(pictures):
         return frames
-    return replace(frames, faces=tuple(faces or places_of(pictures, first=1)))
-
-
-def places_of(pictures: Sequence[Hashable], *, first: int = 0) -> list[str]:
-    """Which face of its picture each is, by their order, counted from ``first``."""
-    seen: Counter[Hashable] = Counter()
-    places = []
-    for picture in pictures:
-        places.append(str(first + seen[picture]))
-        seen[picture] += 1
-    return places
+    faces = faces or people_of(frames.points, pictures, first=1)
+    return replace(frames, faces=tuple(faces), picture_names=tuple(names))
 
 
 def split_irises(points: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:

@@ -14,8 +14,9 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from facegen.formats.csv_rows import CsvRows, number_in, numbers_in
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames, places_of, split_irises, stacked
+from regress.runtime.inputs.frames import Frames, split_irises, stacked
 from regress.runtime.inputs.mesh import VERTICES, irises_of, landmarks_of
+from regress.runtime.inputs.people import people_of, places_of
 
 _POINTS = tuple(f"{axis}_{index}" for index in range(LANDMARK_COUNT) for axis in "xy")
 _BY_AXIS = tuple(sorted(_POINTS, key=lambda name: name[0]))
@@ -62,7 +63,7 @@ def read_table(path: Path) -> Frames:
 
     In OpenFace's a frame without success has no face, nor has one of which the detector is not sure. Labels are the
     column ``frame``, or count from 0. Several faces of a frame are rows of their own: ``frame/FACE``, by the column
-    ``face_id`` or ``Identity`` where it tells the faces of each frame apart, else in the order of their rows.
+    ``face_id`` or ``Identity`` where it tells the faces of each frame apart, else by who was nearest before.
     """
     with CsvRows(path) as table:
         shown = _shown(table)
@@ -137,7 +138,8 @@ def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
         numbers = None
     several = len(set(labels)) < len(labels)
     if several and face_ids is None:
-        face_ids = places_of(labels)
+        face_ids = places_of(labels) if numbers is None else people_of(points, labels)
+    names = tuple(labels)
     if several:
         labels = [f"{frame}/{face}" for frame, face in zip(labels, face_ids, strict=True)]
     return Frames(
@@ -148,6 +150,7 @@ def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
         irises=irises,
         numbers=numbers,
         faces=tuple(face_ids) if several and numbers is not None else None,
+        picture_names=names if several and numbers is not None else None,
         picture_px=tuple(map(round, *sizes_px)) if len(sizes_px) == 1 else None,
     )
 
