@@ -22,13 +22,19 @@ from regress.runtime.model import Model
 from regress.runtime.predict import predict_frames, predict_stream
 from regress.runtime.ready_made import LANDMARKS
 from regress.runtime.sample import Sample
-from regress.runtime.stages.filters import DEFAULT_FILTER
+from regress.runtime.stages.filters import DEFAULT_FILTER, FILM_FILTER
 from regress.runtime.stages.head import HeadSettings
 from regress.runtime.stages.output import Output
 from regress.runtime.writers.csv_table import confidence_csv, csv_lines
 
 FILM_FPS = (5.0, 500.0)
 """Frames a second of what is filtered unasked. Rows of stills have no times, equal ones, or count milliseconds."""
+
+FEWEST_OF_FILM = 10
+"""Frames without times that may be a film's."""
+
+STEADY = 0.1
+"""Of a face's width: films' faces move by less from most frames to the next, those of photographs by more."""
 
 IN_ORDER = 0.9
 """Share of a film's frames that must be later than the one before: rows of two faces a picture share times."""
@@ -82,7 +88,12 @@ def predict_file(
         )
         frames, takes = main, main.takes()
     if auto_filter and is_film(main.time_s):
-        output = dataclasses.replace(output, filter=DEFAULT_FILTER)
+        output = dataclasses.replace(output, filter=FILM_FILTER)
+    elif auto_filter and main.time_s is None and is_steady(main.points):
+        say(
+            f"{landmarks}: no times are given, so weights are not filtered; if this is a film, --fps says how many "
+            "frames a second it has"
+        )
     if fps is None and (rate := frames_a_second(main.time_s)) > FILM_FPS[1]:
         say(f"{landmarks}: its times are of {rate:.0f} frames a second; --fps says what the camera's were")
     timed = output.needs_times or needs_times(table_format, gltf)
@@ -117,6 +128,14 @@ def is_film(time_s: np.ndarray | None) -> bool:
     if not slowest <= frames_a_second(time_s) <= quickest:
         return False
     return bool(np.mean(np.diff(time_s) > 0) >= IN_ORDER)
+
+
+def is_steady(points: np.ndarray) -> bool:
+    """Whether faces (n, 68, 2) stay where they are from frame to frame, as a film's do."""
+    if len(points) < FEWEST_OF_FILM:
+        return False
+    moves = np.linalg.norm(np.diff(points.mean(axis=1), axis=0), axis=1) / np.ptp(points[:-1, :, 0], axis=1)
+    return np.isfinite(moves).any() and bool(np.nanmedian(moves) < STEADY)
 
 
 def frames_a_second(time_s: np.ndarray | None) -> float:

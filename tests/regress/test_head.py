@@ -264,7 +264,12 @@ def test_options_of_cameras_that_cannot_be_are_refused(
 
 
 @pytest.mark.parametrize(
-    "options", [("--head",), ("--picture", "1280x720"), ("--focal-px", "900", "--one-euro", "1")]
+    "options",
+    [
+        ("--head", "--filter", "kalman-33"),
+        ("--picture", "1280x720", "--filter", "kalman-33"),
+        ("--focal-px", "900", "--one-euro", "1"),
+    ],
 )
 def test_a_pipe_gives_what_the_file_gives(options, run, quick_model_folder: Path, tmp_path, monkeypatch):
     faces = np.array([sample.points for sample in _samples()])
