@@ -73,4 +73,4 @@ DEFAULT_FILTER = "kalman-33"
 """The best of those that lag by 33 ms or less, at 30 and 60 frames a second (docs/measurements/real-recordings.md)."""
 
 FILM_FILTER = "kalman-200"
-"""Of a recording, which has no delay to save: r rises by up to 0.03 at 30 frames a second, and blinks stay as high."""
+"""Of a recording, which has no delay to save: r rises by up to 0.02 at 30 frames a second, and blinks stay as high."""
