@@ -11,6 +11,22 @@ from regress.runtime.inputs import Frames, read_frames
 from regress.runtime.model import Model
 from regress.runtime.stages.neutral import estimate_neutral, frame_rate
 
+SHARES = (
+    "points lie between 0 and 1, as shares of a picture's width and height; --picture WIDTHxHEIGHT makes pixels of "
+    "them, without it the picture is taken for a square"
+)
+"""Said of points in such a unit."""
+
+
+def in_pixels(frames: Frames, picture_px: tuple[int, int] | None) -> Frames:
+    """The frames in pixels; where no picture is known of shares, a person is told."""
+    if not frames.shares:
+        return frames
+    if picture_px is None:
+        say(f"{frames.source}: {SHARES}")
+        return frames
+    return frames.in_pixels(picture_px)
+
 
 def neutral_faces(model: Model, frames: Frames, neutral: str) -> dict[str | None, Frames | None]:
     """Neutral frames of each of the faces in a recording (`Frames.takes`), where they are named or found.
@@ -45,7 +61,7 @@ def neutral_faces(model: Model, frames: Frames, neutral: str) -> dict[str | None
         return {face: takes[face].take(rows) if rows else None for face, rows in named.items()}
     first, last = frames.labels[0], frames.labels[-1]
     calm = neutral_file(neutral, frames.source, labels=f" ({first} to {last})")
-    return dict.fromkeys(takes, calm)
+    return dict.fromkeys(takes, in_pixels(calm, frames.picture_px))
 
 
 def named_rows(take: Frames, neutral: str) -> list[int]:

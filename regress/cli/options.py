@@ -100,7 +100,8 @@ PictureOption = Annotated[
     typer.Option(
         "--picture",
         metavar="WIDTHxHEIGHT",
-        help="Size in pixels of the pictures of INPUT, for --head; without it the camera looks at the first face.",
+        help="Size in pixels of the pictures of INPUT, for --head and for points between 0 and 1; without it the "
+        "camera looks at the first face.",
     ),
 ]
 

@@ -57,6 +57,16 @@ class Frames:
         """(n,) bool: frames whose every point is a number."""
         return np.isfinite(self.points).all(axis=(1, 2))
 
+    @property
+    def shares(self) -> bool:
+        """Whether points are shares of a picture's width and height, 0 to 1, and no pixels."""
+        return bool(self.usable.any()) and are_shares(self.points[self.usable])
+
+    def in_pixels(self, picture_px: tuple[int, int]) -> "Frames":
+        """The frames with points in pixels of pictures of this size, of points that are shares of it."""
+        irises = None if self.irises is None else pixels_of(self.irises, picture_px)
+        return replace(self, points=pixels_of(self.points, picture_px), irises=irises, picture_px=picture_px)
+
     def take(self, rows: np.ndarray | list[int]) -> "Frames":
         """Some of the frames."""
         return Frames(
@@ -98,6 +108,16 @@ class Frames:
 
 def _rows_of(names: tuple[str, ...] | None, rows: np.ndarray | list[int]) -> tuple[str, ...] | None:
     return None if names is None else tuple(names[row] for row in rows)
+
+
+def are_shares(points: np.ndarray) -> bool:
+    """Whether points (..., 2), some of them numbers, all lie within 0 and 1: no face in pixels is so small."""
+    return bool(np.nanmin(points) >= 0 and np.nanmax(points) <= 1)
+
+
+def pixels_of(shares: np.ndarray, picture_px: tuple[int, int]) -> np.ndarray:
+    """Points (..., 2) in pixels, whose (0, 0) is the first one's centre, of shares of a picture's width and height."""
+    return shares * picture_px - 0.5
 
 
 def of_pictures(
