@@ -76,6 +76,23 @@ def _ck_plus(folder: Path) -> Path:
     return folder
 
 
+def _openpose(folder: Path) -> Path:
+    """One face in each of three pictures, and a picture without one."""
+    folder.mkdir()
+    for number, face in enumerate([*FACES, None]):
+        people = [] if face is None else [{"person_id": [-1], "face_keypoints_2d": openpose_numbers(face)}]
+        (folder / f"take_{number:012d}_keypoints.json").write_text(
+            json.dumps({"version": 1.3, "people": people})
+        )
+    return folder
+
+
+def openpose_numbers(face: np.ndarray) -> list[float]:
+    """70 points x y c of a face (68, 2), whose irises are not seen."""
+    triples = np.concatenate([face, np.full((LANDMARK_COUNT, 1), 0.8)], axis=1)
+    return np.concatenate([triples, np.zeros((2, 3))]).ravel().tolist()
+
+
 def example_file(name: str, folder: Path) -> Path:
     """A file of three faces (one for ``pts``) in a format of the table."""
     if name == "pts_folder":
@@ -95,6 +112,8 @@ def example_file(name: str, folder: Path) -> Path:
         return _dlib(folder / "a.xml")
     if name == "coco":
         return _coco(folder / "a.json")
+    if name == "openpose_folder":
+        return _openpose(folder / "json")
     if name == "ck_plus":
         return _ck_plus(folder / "Landmarks")
     raise AssertionError(f"the format {name!r} has no example here: write one")
@@ -431,6 +450,7 @@ def bad_inputs(folder: Path) -> dict[str, tuple[Path, str]]:
         "<a><image file='b'><box><part name='68' x='1' y='1'/></box></image></a>"
     )
     (folder / "other.json").write_text("[1]")
+    (folder / "other_list.json").write_text('[{"a": 1}]')
     (folder / "none.json").write_text('{"annotations": []}')
     (folder / "body.json").write_text('{"annotations": [{"id": 1, "image_id": 1, "keypoints": [1, 2, 2]}]}')
     (folder / "S1_landmarks.txt").write_text("1 2 3\n")
@@ -458,6 +478,7 @@ def bad_inputs(folder: Path) -> dict[str, tuple[Path, str]]:
         "other.xml": "no image with a box",
         "high.xml": "a part 68",
         "other.json": "not a COCO keypoints file: must be a table",
+        "other_list.json": "not a COCO keypoints file: key 'annotations[0].image_id' is missing",
         "none.json": "no annotation",
         "body.json": "no 204 numbers",
         "S1_landmarks.txt": "1 lines of 3",
