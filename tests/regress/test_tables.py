@@ -45,6 +45,20 @@ def test_a_mesh_goes_before_68_points_that_are_picked_from_it(prefix: str, besid
     np.testing.assert_array_equal(read.irises, irises_of(mesh)[None])
 
 
+def test_irises_of_openface_are_the_middles_of_their_edges(tmp_path: Path):
+    """28 points an eye, the eye at the picture's left first: eight of the iris, then lids and pupil."""
+    rng = np.random.default_rng(4)
+    right, left = FACE[36:42].mean(axis=0), FACE[42:48].mean(axis=0)
+    turns = np.arange(8) * np.pi / 4
+    circle = 5 * np.stack([np.cos(turns), np.sin(turns)], axis=1)
+    eyes = np.concatenate([right + circle, rng.uniform(0, 9, (20, 2)), left + circle, rng.uniform(0, 9, (20, 2))])
+    row = {**_points(FACE), **_points(eyes, "eye_lmk_"), "success": 1}
+    read = read_frames(_written(tmp_path / "a.csv", row, {**row, "success": 0}))
+    np.testing.assert_allclose(read.points[0], FACE)
+    np.testing.assert_allclose(read.irises[0], [left, right])
+    assert np.isnan(read.irises[1]).all()
+
+
 def test_a_part_of_a_mesh_is_refused(tmp_path: Path):
     path = _written(tmp_path / "a.csv", _points(_mesh()[:400]))
     with pytest.raises(InputError, match=r"has a column x_70, but not all of x_0 .. x_477"):

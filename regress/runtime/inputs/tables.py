@@ -2,7 +2,8 @@
 
 OpenFace puts a blank before each column's name, all x before all y, ``success`` 0 where it saw no face.
 py-feat leaves cells empty there. Columns ``x_68``, ``y_68``, ``x_69``, ``y_69`` are irises, if it has all four. Of
-MediaPipe's mesh, ``mesh_x_0 .. mesh_x_477`` or ``x_0 .. x_477``, 68 points and the irises are taken.
+MediaPipe's mesh, ``mesh_x_0 .. mesh_x_477`` or ``x_0 .. x_477``, 68 points and the irises are taken; of OpenFace's
+eyes, ``eye_lmk_x_0 .. eye_lmk_x_55``, the middles of the irises' edges.
 """
 
 import math
@@ -22,6 +23,12 @@ _POINTS = tuple(f"{axis}_{index}" for index in range(LANDMARK_COUNT) for axis in
 _BY_AXIS = tuple(sorted(_POINTS, key=lambda name: name[0]))
 _IRISES = tuple(f"{axis}_{index}" for index in (LANDMARK_COUNT, LANDMARK_COUNT + 1) for axis in "xy")
 """Of the subject's right iris, then of the left one, where a table has them."""
+
+_EDGE = 8
+"""Points about the edge of an iris, the first of OpenFace's 28 of each eye."""
+
+_EDGES = tuple(f"eye_lmk_{axis}_{eye + index}" for eye in (0, 28) for index in range(_EDGE) for axis in "xy")
+"""Of OpenFace's eyes in two dimensions: the one at the picture's left, the subject's right eye, first."""
 
 _MESHES = tuple(
     tuple(f"{prefix}{axis}_{index}" for index in range(VERTICES) for axis in "xy") for prefix in ("mesh_", "")
@@ -92,7 +99,7 @@ def _shown(table: CsvRows) -> tuple[str, ...]:
             f"{table.path} has a column {_LONGER}, but not all of x_0 .. x_477, y_0 .. y_477 of MediaPipe's mesh; "
             "these are needed, or 68 points in iBUG's order"
         )
-    return _POINTS + (_IRISES if set(_IRISES) <= columns else ())
+    return _POINTS + next((names for names in (_IRISES, _EDGES) if set(names) <= columns), ())
 
 
 def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
@@ -156,10 +163,13 @@ def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
 
 
 def _landmarks(points: np.ndarray) -> np.ndarray:
-    """Points (68 or 70, 2) of those of a row, of which a mesh has more."""
-    if len(points) < VERTICES:
-        return points
-    return np.concatenate([landmarks_of(points), irises_of(points)[::-1]])
+    """Points (68 or 70, 2) of those of a row, of which a mesh has more, and OpenFace's edges of irises."""
+    if len(points) == VERTICES:
+        return np.concatenate([landmarks_of(points), irises_of(points)[::-1]])
+    if len(points) == LANDMARK_COUNT + 2 * _EDGE:
+        face, edges = np.split(points, [LANDMARK_COUNT])
+        return np.concatenate([face, edges.reshape(2, _EDGE, 2).mean(axis=1)])
+    return points
 
 
 def _is_face(said: Mapping[str, float]) -> bool:
