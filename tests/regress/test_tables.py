@@ -51,7 +51,9 @@ def test_irises_of_openface_are_the_middles_of_their_edges(tmp_path: Path):
     right, left = FACE[36:42].mean(axis=0), FACE[42:48].mean(axis=0)
     turns = np.arange(8) * np.pi / 4
     circle = 5 * np.stack([np.cos(turns), np.sin(turns)], axis=1)
-    eyes = np.concatenate([right + circle, rng.uniform(0, 9, (20, 2)), left + circle, rng.uniform(0, 9, (20, 2))])
+    eyes = np.concatenate(
+        [right + circle, rng.uniform(0, 9, (20, 2)), left + circle, rng.uniform(0, 9, (20, 2))]
+    )
     row = {**_points(FACE), **_points(eyes, "eye_lmk_"), "success": 1}
     read = read_frames(_written(tmp_path / "a.csv", row, {**row, "success": 0}))
     np.testing.assert_allclose(read.points[0], FACE)
