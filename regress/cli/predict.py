@@ -35,9 +35,9 @@ def predict(
         list[Path],
         typer.Argument(
             metavar="[MODEL] INPUT",
-            help="Landmarks: .pts files and folders, .npy, OpenFace or py-feat .csv, dlib .xml, COCO .json, "
-            "CK+ folders, or - for lines of 136 numbers on standard input; .npy, .csv and lines may hold the two "
-            "irises behind the 68 points. Before them the model, as --model takes it.",
+            help="Landmarks: .pts files and folders, .npy, OpenFace or py-feat .csv, dlib .xml, COCO, OpenPose or "
+            "mmpose .json, CK+ folders, or - for lines of 136 numbers on standard input; .npy, .csv and lines may hold "
+            "the two irises behind the 68 points. Before them the model, as --model takes it.",
         ),
     ],
     chosen: ModelOption = None,

@@ -16,8 +16,8 @@ from regress.runtime.inputs import Frames
 from regress.runtime.model import Model, save_model
 from regress.runtime.predict import predict_frames, predict_stream
 from regress.runtime.sample import Sample
-from regress.runtime.stages.filters import DEFAULT_FILTER, FILTERS
-from regress.runtime.stages.kalman import NOISE_LEAST, SURPRISE, WANDERING, KalmanSmoothing
+from regress.runtime.stages.filters import DEFAULT_FILTER, FILM_FILTER, FILTERS
+from regress.runtime.stages.kalman import LIDS, NOISE_LEAST, SURPRISE, WANDERING, KalmanSmoothing, NoiseMeter
 from regress.runtime.stages.output import Output, filter_stage
 from regress.runtime.stages.stage import Chain, Stage
 from regress.runtime.writers.csv_table import weights_csv
@@ -58,7 +58,7 @@ def test_each_frame_leaves_once_in_its_order(name: str, take: tuple[np.ndarray, 
     weights, time_s = take
     samples = frames_of(weights, time_s)
     if gaze:
-        samples = [replace(sample, gaze=sample.weights[:4]) for sample in samples]
+        samples = [replace(sample, gaze=sample.weights[-4:]) for sample in samples]
     live = list(Chain([filter_stage(name)]).stream(samples))
     assert [sample.label for sample in live] == [sample.label for sample in samples]
     assert [sample.time_s for sample in live] == [sample.time_s for sample in samples]
@@ -69,7 +69,7 @@ def test_each_frame_leaves_once_in_its_order(name: str, take: tuple[np.ndarray, 
     assert not len(found) or np.all((found >= weights[present].min(0)) & (found <= weights[present].max(0)))
     if gaze and name != "one-euro":
         for sample in live:
-            np.testing.assert_array_equal(sample.gaze, sample.weights[:4])
+            np.testing.assert_array_equal(sample.gaze, sample.weights[-4:])
     if gaze:  # filtered as a weight; One-Euro knows it for quick, as eyes are
         assert all(sample.gaze.shape == (4,) for sample in live)
     file = filter_stage(name).run(samples)
@@ -141,6 +141,45 @@ def test_kalman_is_the_exact_smoother_where_nothing_surprises():
     np.testing.assert_allclose(smoothed[1:], exact[1:], atol=1e-12)
 
 
+@settings(deadline=None, max_examples=40)
+@given(take=takes(), rate=st.sampled_from((15, 24, 25, 30, 50, 60, 120)))
+def test_a_films_filter_looks_no_further_for_lids(take: tuple[np.ndarray, np.ndarray], rate: int):
+    weights, time_s = np.nan_to_num(take[0], nan=0.5), np.arange(len(take[0])) / rate
+    lids = [BLENDSHAPE_INDEX[name] for name in LIDS]
+    film, quick = (left(filter_stage(name), weights, time_s) for name in (FILM_FILTER, "kalman-33"))
+    slow = left(KalmanSmoothing(FILTERS[FILM_FILTER].settings.ahead_s), weights, time_s)
+    np.testing.assert_allclose(film[:, lids], quick[:, lids], atol=1e-9)
+    others = np.setdiff1d(np.arange(SHAPES), lids)
+    np.testing.assert_array_equal(film[:, others], slow[:, others])
+
+
+def test_a_films_filter_is_calmer_and_keeps_blinks():
+    rng = np.random.default_rng(8)
+    times = np.arange(900) / 30
+    true = np.zeros((900, SHAPES))
+    true[:] = 0.4 + 0.2 * np.sin(times)[:, None]
+    blink = BLENDSHAPE_INDEX["eyeBlinkLeft"]
+    for moment in np.arange(3.0, 29.0, 2.13):  # closing in 80 ms, opening in 160
+        lid = np.interp(times - moment, (-0.08, 0, 0.03, 0.19), (0.0, 0.5, 0.5, 0.0))
+        true[:, blink] = np.maximum(true[:, blink], 0.4 + lid)
+    noisy = true + 0.03 * rng.standard_normal(true.shape)
+    film, quick = (left(filter_stage(name), noisy, times) for name in (FILM_FILTER, DEFAULT_FILTER))
+    jaw = BLENDSHAPE_INDEX["jawOpen"]
+    assert np.abs(film - true)[60:, jaw].mean() < 0.9 * np.abs(quick - true)[60:, jaw].mean()
+    assert film[:, blink].max() == pytest.approx(quick[:, blink].max(), abs=1e-9)
+
+
+def test_kalman_measures_the_noise_of_frames_that_come_twice():
+    """As dim webcams give them: two equal rows are no sign of calm."""
+    jitter = np.random.default_rng(3).normal(0.5, 0.05, (600, SHAPES))
+    once, twice = NoiseMeter(SHAPES), NoiseMeter(SHAPES)
+    for row in jitter:
+        once.step(row)
+        for _ in range(2):
+            twice.step(row)
+    np.testing.assert_array_equal(twice.noise, once.noise)
+
+
 def test_kalman_measures_no_noise_across_a_gap():
     """How far the level before a gap lies from the one behind it is no jitter."""
     rng = np.random.default_rng(7)
@@ -189,6 +228,15 @@ def test_the_default_lags_by_a_thirtieth_and_slight_steps_no_more():
         for height in (0.1, 0.2, 1.0):
             assert live_lag_ms(filter_stage(DEFAULT_FILTER), rate, height).max() < 44
     assert live_lag_ms(filter_stage(DEFAULT_FILTER), 15, 1.0).max() < 1  # none waits for a frame 67 ms away
+
+
+@pytest.mark.parametrize("rate", [23.976, 24.0, 25.0, 30.0])
+def test_every_frame_of_a_film_waits_for_the_next_one(rate: float):
+    """But the first, whose next nobody expects yet; also where times say by their last digit that it is late."""
+    samples = frames_of(np.zeros((2000, SHAPES)), 1e4 + np.arange(2000) / rate)
+    stage = filter_stage("kalman-33")
+    assert [len(stage.feed(sample)) for sample in samples] == [0 if row == 1 else 1 for row in range(2000)]
+    assert len(stage.finish()) == 1
 
 
 @pytest.mark.parametrize("rate", RATES)
@@ -280,7 +328,7 @@ def test_a_pipe_whose_face_is_lost_is_no_later(name: str, after: float | None):
 
     behind = [taken - number for number, _ in enumerate(Chain([stage]).stream(lines()), start=1)]
     assert len(behind) == 18
-    assert max(behind) <= 4
+    assert max(behind) <= max(4, 1 + round(FILTERS[name].lag_ms[0] * 30 / 1000))
 
 
 @pytest.mark.parametrize(
@@ -317,7 +365,7 @@ def test_a_recording_without_times_and_the_papers_recipe_are_left_alone(
     )
     timed = ("--fps", 30)
     default = run("predict", quick_model_folder, tmp_path / "take.npy", *timed)[1]
-    assert default == _told(quick_model, fps=30, name=DEFAULT_FILTER)
+    assert default == _told(quick_model, fps=30, name=FILM_FILTER)
     paper = replace(quick_model, recipe="paper")
     save_model(paper, tmp_path / "paper")
     found = run("predict", tmp_path / "paper", tmp_path / "take.npy", *timed)[1]
@@ -334,6 +382,23 @@ def test_a_recording_without_times_and_the_papers_recipe_are_left_alone(
         quick_model.predict(FACES),
         atol=1e-6,
     )
+
+
+@pytest.mark.parametrize(
+    ("options", "steady", "told"),
+    [((), True, True), ((), False, False), (("--fps", 30), True, False), (("--filter", "none"), True, False)],
+)
+def test_a_film_without_times_is_told_to_lack_them(
+    options: tuple, steady: bool, told: bool, run, quick_model_folder, tmp_path
+):
+    faces = FACES.copy()
+    faces[4] = np.nan
+    if steady:
+        faces += 100 - faces.mean(axis=1, keepdims=True)
+    np.save(tmp_path / "take.npy", faces)
+    code, _, said = run("predict", quick_model_folder, tmp_path / "take.npy", *options)
+    assert code == 0
+    assert ("no times are given, so weights are not filtered; if this is a film, --fps" in said) is told
 
 
 def test_help_states_the_lags(run):

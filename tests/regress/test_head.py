@@ -144,7 +144,7 @@ def test_a_neutral_frame_shows_the_person():
 
 
 def test_what_is_known_of_the_camera():
-    """A picture gives the middle and, at 60 degrees, the focal length; without one the first face is looked at."""
+    """A picture gives the middle and, at 60 degrees along its longer side, the focal length; else a face does."""
     face = seen(
         SHAPE.points,
         np.array([0, 0, TYPICAL_DISTANCE_M, 0, 0, 0.3]),
@@ -153,6 +153,10 @@ def test_what_is_known_of_the_camera():
     known = CameraSettings(picture_px=(640, 480)).camera(face, SHAPE)
     assert (known.focal_px, known.centre_px) == (pytest.approx(320 / np.tan(np.radians(30))), (319.5, 239.5))
     assert CameraSettings(picture_px=(640, 480), focal_px=700.0).camera(face, SHAPE).focal_px == 700
+    upright = CameraSettings(picture_px=(480, 640)).camera(face, SHAPE)
+    assert (upright.focal_px, upright.centre_px) == (pytest.approx(known.focal_px), (239.5, 319.5))
+    across = CameraSettings(picture_px=(480, 640), fov_deg=60.0).camera(face, SHAPE)
+    assert across.focal_px == pytest.approx(240 / np.tan(np.radians(30)))
     unknown = CameraSettings().camera(face, SHAPE)
     found = head_found(face[None], camera=unknown)[0]
     np.testing.assert_allclose(found[:3], [0, 0, TYPICAL_DISTANCE_M], atol=0.03)
@@ -260,7 +264,12 @@ def test_options_of_cameras_that_cannot_be_are_refused(
 
 
 @pytest.mark.parametrize(
-    "options", [("--head",), ("--picture", "1280x720"), ("--focal-px", "900", "--one-euro", "1")]
+    "options",
+    [
+        ("--head", "--filter", "kalman-33"),
+        ("--picture", "1280x720", "--filter", "kalman-33"),
+        ("--focal-px", "900", "--one-euro", "1"),
+    ],
 )
 def test_a_pipe_gives_what_the_file_gives(options, run, quick_model_folder: Path, tmp_path, monkeypatch):
     faces = np.array([sample.points for sample in _samples()])

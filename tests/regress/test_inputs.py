@@ -76,6 +76,23 @@ def _ck_plus(folder: Path) -> Path:
     return folder
 
 
+def _openpose(folder: Path) -> Path:
+    """One face in each of three pictures, and a picture without one."""
+    folder.mkdir()
+    for number, face in enumerate([*FACES, None]):
+        people = [] if face is None else [{"person_id": [-1], "face_keypoints_2d": openpose_numbers(face)}]
+        (folder / f"take_{number:012d}_keypoints.json").write_text(
+            json.dumps({"version": 1.3, "people": people})
+        )
+    return folder
+
+
+def openpose_numbers(face: np.ndarray) -> list[float]:
+    """70 points x y c of a face (68, 2), whose irises are not seen."""
+    triples = np.concatenate([face, np.full((LANDMARK_COUNT, 1), 0.8)], axis=1)
+    return np.concatenate([triples, np.zeros((2, 3))]).ravel().tolist()
+
+
 def example_file(name: str, folder: Path) -> Path:
     """A file of three faces (one for ``pts``) in a format of the table."""
     if name == "pts_folder":
@@ -95,6 +112,8 @@ def example_file(name: str, folder: Path) -> Path:
         return _dlib(folder / "a.xml")
     if name == "coco":
         return _coco(folder / "a.json")
+    if name == "openpose_folder":
+        return _openpose(folder / "json")
     if name == "ck_plus":
         return _ck_plus(folder / "Landmarks")
     raise AssertionError(f"the format {name!r} has no example here: write one")
@@ -171,10 +190,10 @@ def test_boxes_that_dlib_ignores_are_no_faces(true: str, tmp_path: Path):
 @pytest.mark.parametrize(
     ("tracks", "takes"),
     [
-        (None, {"1": [0, 2], "2": [1]}),
+        (None, {"1": [0], "2": [1, 2]}),  # the third face is nearer to the second
         ([7, 8, 8], {"7": [0], "8": [1, 2]}),
-        ([7, 7, 8], {"1": [0, 2], "2": [1]}),  # one person twice in a picture
-        ([7, None, 8], {"1": [0, 2], "2": [1]}),
+        ([7, 7, 8], {"1": [0], "2": [1, 2]}),  # one person twice in a picture
+        ([7, None, 8], {"1": [0], "2": [1, 2]}),
     ],
 )
 def test_coco_faces_of_one_picture_are_takes_of_their_own(tracks: list | None, takes: dict, tmp_path: Path):
@@ -295,15 +314,6 @@ def test_frames_whose_points_are_written_as_no_number_have_no_face(cell: str, tm
     assert read_frames(path).usable.tolist() == [True, False, True]
 
 
-def test_a_mesh_in_the_columns_of_68_points_is_refused(tmp_path: Path):
-    """py-feat's detector of MediaPipe writes x_0 to x_477: its first 68 are no face of iBUG's."""
-    path = tmp_path / "mesh.csv"
-    names = [f"{axis}_{index}" for index in range(478) for axis in "xyz"]
-    path.write_text(f"{','.join(names)}\n{','.join('1' for _ in names)}\n")
-    with pytest.raises(InputError, match=r"x_70.*of a mesh, as MediaPipe's"):
-        read_frames(path)
-
-
 def test_pyfeat_rows_with_empty_cells_have_no_face(tmp_path: Path):
     frames = read_frames(_pyfeat(tmp_path / "a.csv", empty=(0,)))
     assert frames.usable.tolist() == [False, True, True]
@@ -359,16 +369,16 @@ def test_faces_of_one_picture_share_its_time_and_have_names_of_their_own(tmp_pat
     ("people", "takes"),
     [
         (["Person_0", "Person_1", "Person_1", "Person_0"], {"Person_0": [0, 3], "Person_1": [1, 2]}),
-        (["Person_0", "Person_0", "Person_1", "Person_0"], {"0": [0, 2], "1": [1, 3]}),
-        (["Person_0", "", "Person_1", "Person_0"], {"0": [0, 2], "1": [1, 3]}),
-        (["", "", "", ""], {"0": [0, 2], "1": [1, 3]}),
+        (["Person_0", "Person_0", "Person_1", "Person_0"], {"0": [0, 3], "1": [1, 2]}),
+        (["Person_0", "", "Person_1", "Person_0"], {"0": [0, 3], "1": [1, 2]}),
+        (["", "", "", ""], {"0": [0, 3], "1": [1, 2]}),
     ],
 )
 @pytest.mark.parametrize("column", ["Identity", "face_id"])
 def test_people_whose_rows_change_order_are_told_by_their_names(
     column: str, people: list[str], takes: dict, tmp_path: Path
 ):
-    """The last frame has no face, and py-feat no name for it."""
+    """Without names by their places. The last frame has no face, and py-feat no name for it."""
     lines = [",".join([*COLUMNS, "frame", column])]
     for frame, face, person in zip("4455", [*FACES, FACES[0]], people, strict=True):
         lines.append(",".join([*_cells(face), frame, person]))
@@ -440,6 +450,7 @@ def bad_inputs(folder: Path) -> dict[str, tuple[Path, str]]:
         "<a><image file='b'><box><part name='68' x='1' y='1'/></box></image></a>"
     )
     (folder / "other.json").write_text("[1]")
+    (folder / "other_list.json").write_text('[{"a": 1}]')
     (folder / "none.json").write_text('{"annotations": []}')
     (folder / "body.json").write_text('{"annotations": [{"id": 1, "image_id": 1, "keypoints": [1, 2, 2]}]}')
     (folder / "S1_landmarks.txt").write_text("1 2 3\n")
@@ -467,6 +478,7 @@ def bad_inputs(folder: Path) -> dict[str, tuple[Path, str]]:
         "other.xml": "no image with a box",
         "high.xml": "a part 68",
         "other.json": "not a COCO keypoints file: must be a table",
+        "other_list.json": "not a COCO keypoints file: key 'annotations[0].image_id' is missing",
         "none.json": "no annotation",
         "body.json": "no 204 numbers",
         "S1_landmarks.txt": "1 lines of 3",

@@ -14,7 +14,7 @@ from regress.runtime.predict import landmark_chain
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
 from regress.runtime.stages.adjustment import ShapeAdjustment
-from regress.runtime.stages.filters import DEFAULT_FILTER, FILTERS
+from regress.runtime.stages.filters import DEFAULT_FILTER, FILM_FILTER, FILTERS
 from regress.runtime.stages.head import HeadSettings
 from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import Output
@@ -34,7 +34,7 @@ ADJUSTMENTS = (
 
 STAGES: dict[str, tuple[tuple[str, ...], Output]] = {
     "nothing": (("--filter", "none"), Output()),
-    "filtered unasked": ((), Output(filter=DEFAULT_FILTER)),
+    "filtered unasked": ((), Output(filter=FILM_FILTER)),
     **{f"filtered by {name}": (("--filter", name), Output(filter=name)) for name in FILTERS},
     "landmarks smoothed": (("--smooth-landmarks", "1.5"), Output(smooth_landmarks_hz=1.5)),
     "moving average": (("--smooth", "3"), Output(smooth=3)),
@@ -101,7 +101,7 @@ def test_every_reader(reader: str, run, quick_model: Model, quick_model_folder: 
     assert code == 0, err
     frames, samples = read_frames(path).at_rate(25), {}
     for rows in frames.takes().values():  # each face of a picture is a take of its own
-        output = Output(filter=DEFAULT_FILTER if len(rows) > 1 else None)  # one frame is a still
+        output = Output(filter=FILM_FILTER if len(rows) > 1 else None)  # one frame is a still
         chain = Chain([Soundness(needs_times=True), landmark_chain(quick_model, output)])
         samples |= dict(zip(rows.tolist(), chain.stream(frames.take(rows).samples()), strict=True))
     in_order = [samples[row] for row in range(len(frames.labels))]
@@ -174,7 +174,7 @@ def test_an_avatar_and_the_confidence(
     code, _, err = run("predict", quick_model_folder, take, *options, *(["--mirror"] if mirrored else []))
     assert code == 0, err
     assert "a.glb has no bone called head that can be turned" in err
-    output = Output(filter=DEFAULT_FILTER, mirror=mirrored)
+    output = Output(filter=FILM_FILTER, mirror=mirrored)
     stepped = _stepped(quick_model, take, output, confident=True, head=HeadSettings())
     assert take.with_name("b.glb").read_bytes() == animated_avatar(stepped, Path("a.glb")).content
     assert take.with_name("trust.csv").read_text() == confidence_csv(stepped)
@@ -185,7 +185,8 @@ def test_a_pipe_gives_the_files_table_with_every_stage(
     stage: str, run, quick_model_folder: Path, take: Path, monkeypatch: pytest.MonkeyPatch
 ):
     options, _ = STAGES[stage]
-    _, out, _ = run("predict", quick_model_folder, take, "--fps", 25, *options)
+    in_file = options or ("--filter", DEFAULT_FILTER)  # a recording has no delay to save
+    _, out, _ = run("predict", quick_model_folder, take, "--fps", 25, *in_file)
     lines = [" ".join(map(repr, face.ravel().tolist())) for face in np.load(take)]
     monkeypatch.setattr(sys, "stdin", io.StringIO("\n".join(lines) + "\n"))
     code, piped, err = run("predict", quick_model_folder, "-", "--out", "-", "--fps", 25, *options)

@@ -85,7 +85,12 @@ def test_the_csv_reads_back_with_empty_cells_where_no_face_is(quick_model: Model
 def test_neutral_frames_of_a_picture_are_everyones_own(named: str, rows: dict[str, list[int]]):
     labels = ("1/0", "1/1", "2/0", "2/1", "3/0", "3/1")
     faces = Frames(
-        points=np.zeros((6, 68, 2)), labels=labels, time_s=None, source="here", faces=("0", "1") * 3
+        points=np.zeros((6, 68, 2)),
+        labels=labels,
+        time_s=None,
+        source="here",
+        faces=("0", "1") * 3,
+        picture_names=("1", "1", "2", "2", "3", "3"),
     )
     assert {face: named_rows(faces.take(kept), named) for face, kept in faces.takes().items()} == rows
 
@@ -112,10 +117,15 @@ def test_names_of_frames_may_have_dashes(named: str, rows: list[int]):
     assert named_rows(frames, named) == rows
 
 
+def _beside(faces: np.ndarray, face: int) -> np.ndarray:
+    """Faces where the person of this number is, whom the ones beside never reach."""
+    return faces - faces.mean(axis=1, keepdims=True) + np.array([10_000.0 * face, 0.0])
+
+
 def test_each_of_several_faces_is_a_take_of_its_own(run, tmp_path: Path):
     """Two people of one py-feat table get what each of them gets alone: filtered, and by their own neutral faces."""
     rng = np.random.default_rng(5)
-    people = [drawn_faces(rng, 40), drawn_faces(rng, 40)]
+    people = [_beside(drawn_faces(rng, 40), face) for face in range(2)]
     both = [(frame, people[face][frame]) for frame in range(40) for face in range(2)]
     alone = []
     for name, rows in [("both", both), *((str(face), list(enumerate(people[face]))) for face in range(2))]:
@@ -134,6 +144,7 @@ def test_what_holds_one_face_gets_the_one_that_is_seen_longest(run, tmp_path: Pa
     faces = drawn_faces(np.random.default_rng(7), 9)
     header = ["frame", *(f"{axis}_{point}" for point in range(68) for axis in "xy")]
     frames = [*range(8), 3] if several else range(8)
+    faces = np.concatenate([_beside(faces[:8], 0), _beside(faces[8:], 1)])
     rows = sorted(zip(frames, faces, strict=False), key=lambda row: row[0])
     lines = [",".join(map(repr, [frame, *face.ravel().tolist()])) for frame, face in rows]
     (tmp_path / "take.csv").write_text("\n".join([",".join(header), *lines]) + "\n")
@@ -145,6 +156,9 @@ def test_what_holds_one_face_gets_the_one_that_is_seen_longest(run, tmp_path: Pa
 
 def test_a_face_that_is_not_at_rest_is_told_of_and_the_other_is_calibrated(run, tmp_path: Path):
     faces = drawn_faces(np.random.default_rng(6), 5)
+    faces = np.concatenate(
+        [_beside(face[None], person) for face, person in zip(faces, [0, 1, 0, 1, 0], strict=True)]
+    )
     header = ["frame", *(f"{axis}_{point}" for point in range(68) for axis in "xy")]
     frames = [1, 1, 2, 2, 3]
     lines = [

@@ -17,13 +17,14 @@ from facegen.conventions import LANDMARK_GROUPS, MIRRORED_LANDMARKS
 from facegen.errors import InputError, MissingAsset
 from regress.runtime.heads.camera import CameraSettings
 from regress.runtime.heads.fit import FACING
+from regress.runtime.inputs.mesh import VERTICES, irises_of, landmarks_of
 from regress.runtime.sample import Sample
 from regress.runtime.stages.head import HeadPose, HeadSettings, angles_of
 from tests.track.faces import HEIGHT, WIDTH, moving, seen, two_faces
 from track.detectors import DETECTORS, FaceFault, MediapipeDetector, PointsDetector, open_detector
-from track.detectors.following import FORGOTTEN_S, Following
+from track.detectors.following import ALONE_S, FORGOTTEN_S, LEAP, QUICKEST, Following
 from track.detectors.head import rotation_of, typical_camera
-from track.detectors.mediapipe_points import EYES_CM, LEVEL, VERTICES, head_of, irises_of, landmarks_of
+from track.detectors.mediapipe_head import EYES_CM, LEVEL, head_of
 from track.detectors.model_file import NAME, VARIABLE, WHEEL, model_file
 from track.sources import Pace, open_source
 
@@ -212,6 +213,54 @@ def test_the_nearest_face_is_followed_whatever_the_order(count: int, seed: int):
         assert order[following.choose(faces, frame / 30)] == first
     others = np.delete(places + face, first, axis=0)
     assert following.choose(others, 6 / 30) is None
+
+
+def _at(*places: float) -> np.ndarray:
+    """Faces of width 100 with their middles so many widths to the right."""
+    face = np.random.default_rng(3).uniform(0, 100, (68, 2))
+    face[:2, 0] = 0, 100
+    return np.array([face + np.array([100.0 * place, 0.0]) for place in places]).reshape(-1, 68, 2)
+
+
+@given(leap=st.floats(1.5, 6.0), fps=st.floats(5, 60))
+def test_a_face_that_is_alone_is_followed_wherever_it_goes(leap: float, fps: float):
+    following = Following()
+    assert following.choose(_at(0), 0.0) == 0
+    times = [number / fps for number in range(1, 200)]
+    chosen = next(time_s for time_s in times if following.choose(_at(leap), time_s) == 0)
+    assert chosen <= max(times[0], ALONE_S + 2 / fps + 1e-9)
+    assert chosen <= max(times[0], (leap - LEAP) / QUICKEST + 1 / fps + 1e-9)
+    assert not following.others(chosen)
+    assert following.choose(_at(leap), chosen + 1 / fps) == 0
+
+
+def test_a_face_that_is_left_alone_is_not_followed_at_once():
+    """Somebody beside the followed one stays when that one's face is hidden."""
+    following = Following()
+    assert following.choose(_at(0, 2), 0.0) is not None
+    first = following.choose(_at(0, 2), 0.1)
+    left = _at(2 if first == 0 else 0)
+    for number in range(2, 20):
+        assert following.choose(left, number / 10) is None
+        assert following.others(number / 10)
+    assert following.choose(left, FORGOTTEN_S + 0.2) == 0
+
+
+def test_a_face_that_flickers_elsewhere_is_not_followed():
+    """As a poster's that is found in one picture of ten."""
+    following = Following()
+    following.choose(_at(0), 0.0)
+    for number in range(1, 15):
+        faces = _at(20) if number % 2 else _at()
+        assert following.choose(faces, number / 10) is None
+
+
+def test_a_lone_face_that_moves_far_is_never_others(detector: MediapipeDetector):
+    detector.step(_sample(two_faces(left_zoom=0.8, right_zoom=None), 0.0))
+    for number in range(1, 15):
+        sample = detector.step(_sample(two_faces(left_zoom=None, right_zoom=0.8), number / 30))
+        assert FaceFault.OTHERS not in sample.faults.values()
+    assert sample.points[:, 0].min() > WIDTH / 2
 
 
 def test_times_that_stand_still_stop_nothing(detector: MediapipeDetector):

@@ -12,18 +12,12 @@ import math
 import cv2
 import numpy as np
 
-from regress.runtime.heads.camera import TYPICAL_FOV_DEG, FaceCamera
+from regress.runtime.heads.camera import typical_camera
 from regress.runtime.heads.fit import FACING
 from regress.runtime.stages.head import angles_of
 
 _ASSUMED_FOV_DEG = 63.0
 """From the top of a picture to its bottom (MediaPipe's geometry module)."""
-
-
-def typical_camera(width: int, height: int) -> FaceCamera:
-    """The camera that pictures of this size are taken to come from, where nothing is known of it."""
-    focal_px = width / 2 / math.tan(math.radians(TYPICAL_FOV_DEG) / 2)
-    return FaceCamera(focal_px=focal_px, centre_px=((width - 1) / 2, (height - 1) / 2))
 
 
 def seen_head(head: np.ndarray, *, width: int, height: int) -> np.ndarray:

@@ -9,12 +9,13 @@ import cv2
 import numpy as np
 
 from facegen.console import silent_stderr
+from regress.runtime.inputs.mesh import VERTICES, irises_of, landmarks_of
 from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
 from track.detectors.faults import FaceFault
 from track.detectors.following import Following
 from track.detectors.head import seen_head
-from track.detectors.mediapipe_points import NO_HEAD, NO_IRISES, NO_POINTS, head_of, irises_of, landmarks_of
+from track.detectors.mediapipe_head import NO_HEAD, NO_IRISES, NO_POINTS, head_of
 from track.detectors.model_file import model_file
 from track.errors import InputError
 
@@ -73,10 +74,11 @@ class MediapipeDetector(Stage):
         found = self._found(pixels, sample.time_s)
         meshes = np.array([[(each.x, each.y) for each in face] for face in found.face_landmarks])
         # MediaPipe measures from the picture's corner in widths and heights; our (0, 0) is the first pixel's centre
-        meshes = meshes.reshape(-1, 478, 2) * pixels.shape[1::-1] - 0.5
-        faces = np.array([landmarks_of(mesh) for mesh in meshes]).reshape(-1, *NO_POINTS.shape)
-        chosen = self._following.choose(faces, self._last_ms / 1000)
-        if len(faces) > 1 or (len(faces) and chosen is None):
+        meshes = meshes.reshape(-1, VERTICES, 2) * pixels.shape[1::-1] - 0.5
+        faces = landmarks_of(meshes)
+        time_s = self._last_ms / 1000
+        chosen = self._following.choose(faces, time_s)
+        if len(faces) > 1 or (len(faces) and chosen is None and self._following.others(time_s)):
             nothing = replace(nothing, faults={**sample.faults, "points": FaceFault.OTHERS})
         if chosen is None:
             return nothing

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
-from track.detectors.mediapipe_points import NO_POINTS
+from track.detectors.mediapipe_head import NO_POINTS
 
 
 class PointsDetector(Stage):

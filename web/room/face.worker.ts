@@ -7,7 +7,7 @@
 
 import { FaceLandmarker, FilesetResolver, type FaceLandmarkerResult, type NormalizedLandmark } from "@mediapipe/tasks-vision";
 
-import table from "../../track/detectors/data/mediapipe_points.json";
+import table from "../../regress/data/mediapipe_points.json";
 import { FULL_PITCH_RAD, FULL_YAW_RAD, SHAPE_INDEX } from "../avatar/shapes.js";
 
 export type ToWorker = { kind: "picture"; picture: ImageBitmap; time: number } | { kind: "neutral" };

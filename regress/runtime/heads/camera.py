@@ -9,8 +9,8 @@ from regress.errors import InputError
 from regress.runtime.heads.shape import HeadShape
 
 TYPICAL_FOV_DEG = 60.0
-"""Angle of view across a picture: webcams and phones' front cameras have 55 to 75. 30 % off in the focal length costs
-head pose .1 to .8 degrees (docs/head-pose.md)."""
+"""Angle of view along a picture's longer side: webcams and phones' front cameras have 55 to 75. 30 % off in the focal
+length costs head pose .1 to .8 degrees (docs/head-pose.md)."""
 
 TYPICAL_DISTANCE_M = 0.6
 """From a screen's camera to the head before it, where nothing is known of the picture."""
@@ -30,6 +30,15 @@ class FaceCamera:
 
     focal_px: float
     centre_px: tuple[float, float]
+
+
+def typical_camera(width: int, height: int) -> FaceCamera:
+    """The camera that pictures of this size are taken to come from, where nothing is known of it.
+
+    A picture that stands upright is of a camera on its side: along its longer side it sees as much.
+    """
+    focal_px = max(width, height) / 2 / math.tan(math.radians(TYPICAL_FOV_DEG) / 2)
+    return FaceCamera(focal_px=focal_px, centre_px=((width - 1) / 2, (height - 1) / 2))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,8 +80,9 @@ class CameraSettings:
         if self.picture_px is not None:
             width, height = self.picture_px
             if focal_px is None:
-                fov_deg = TYPICAL_FOV_DEG if self.fov_deg is None else self.fov_deg
-                focal_px = width / 2 / math.tan(math.radians(fov_deg) / 2)
+                if self.fov_deg is None:
+                    return typical_camera(width, height)
+                focal_px = width / 2 / math.tan(math.radians(self.fov_deg) / 2)
             return FaceCamera(focal_px=focal_px, centre_px=((width - 1) / 2, (height - 1) / 2))
         middle, scale = shape.laid_upon(face[None])
         if focal_px is None:

@@ -1,4 +1,7 @@
-"""COCO keypoints in JSON: 68 triples (x, y, v) in ``keypoints``, or in COCO-WholeBody's ``face_kpts``."""
+"""COCO keypoints in JSON: 68 triples (x, y, v) in ``keypoints``, or in COCO-WholeBody's ``face_kpts``.
+
+Where ``keypoints`` are 133 of a whole body, the face's are taken. Results stand in a list, without their pictures.
+"""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -13,6 +16,7 @@ from facegen.formats.natural_order import NaturalOrder, natural_order
 from regress.errors import InputError
 from regress.runtime.documents import checked
 from regress.runtime.inputs.frames import Frames, of_pictures, stacked
+from regress.runtime.inputs.instances import FACE, WHOLE_BODY, is_document, read_parsed
 
 _MOST_BYTES = 256 * 1024**2
 """Some 100,000 annotations; as Python's numbers they take four times as much memory."""
@@ -43,21 +47,34 @@ class _Coco:
     images: tuple[_Image, ...] = ()
 
 
-def is_coco(path: Path) -> bool:
+def is_json(path: Path) -> bool:
     """Whether this is a ``.json`` file."""
     return path.suffix.lower() == ".json"
 
 
-def read_coco(path: Path) -> Frames:
+def read_json(path: Path) -> Frames:
+    """Frames of COCO's annotations and results, or of a pose estimator's (`regress.runtime.inputs.instances`)."""
+    try:
+        document = load_json(path, most_bytes=_MOST_BYTES)
+    except InputError as error:
+        reason = str(error).removeprefix(f"{path}: ")
+        raise InputError(f"{path} is not a COCO keypoints file: {reason}") from error
+    return read_parsed(document, path) if is_document(document) else _read_coco(document, path)
+
+
+def _read_coco(document: Any, path: Path) -> Frames:
     """Every annotation is a frame, by image and annotation id; points with v = 0 are missing.
 
     A frame is called by its picture's file name, or ``name/ID`` where a picture has several annotations. Each face of
-    such pictures is a take of its own, by ``track_id`` where all have one, else by its place among those of a picture.
+    such pictures is a take of its own, by ``track_id`` where all have one, else by who was nearest before.
     Annotations without 68 points, as of bodies or boxes alone, are no faces. Pictures without a face have no frame, and
     take their time all the same.
     """
+    results = isinstance(document, list) and all(isinstance(each, dict) for each in document)
+    if results and document:
+        document = {"annotations": [{"id": place, **each} for place, each in enumerate(document)]}
     try:
-        document = checked(_Coco, load_json(path, most_bytes=_MOST_BYTES))
+        document = checked(_Coco, document)
     except InputError as error:
         reason = str(error).removeprefix(f"{path}: ")
         raise InputError(f"{path} is not a COCO keypoints file: {reason}") from error
@@ -76,15 +93,17 @@ def read_coco(path: Path) -> Frames:
             f"x y v of {LANDMARK_COUNT} points"
         )
     faces = Counter(entry.image_id for entry in annotations)
-    labels = []
-    for entry in annotations:
-        name = names.get(entry.image_id, str(entry.image_id))
-        labels.append(name if faces[entry.image_id] == 1 else f"{name}/{entry.id}")
+    named = [names.get(entry.image_id, str(entry.image_id)) for entry in annotations]
+    labels = [
+        name if faces[entry.image_id] == 1 else f"{name}/{entry.id}"
+        for name, entry in zip(named, annotations, strict=True)
+    ]
     points = stacked((_face(entry, path) for entry in annotations), path)
     frames = Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
     pictures = sorted(names.keys() | {entry.image_id for entry in document.annotations}, key=_order)
     place = {picture: number for number, picture in enumerate(pictures)}
-    return of_pictures(frames, [place[entry.image_id] for entry in annotations], _tracks(annotations))
+    of = [place[entry.image_id] for entry in annotations]
+    return of_pictures(frames, of, named, _tracks(annotations))
 
 
 def _tracks(annotations: list[_Annotation]) -> list[str] | None:
@@ -102,8 +121,10 @@ def _order(key: _Id) -> tuple[bool, int | NaturalOrder]:
 
 def _numbers(entry: _Annotation) -> list[Any] | None:
     """Those of 68 points, where the annotation has them."""
-    given = (entry.keypoints, entry.face_kpts)
-    return next((one for one in given if isinstance(one, list) and len(one) == 3 * LANDMARK_COUNT), None)
+    given = [one for one in (entry.keypoints, entry.face_kpts) if isinstance(one, list)]
+    face = next((one for one in given if len(one) == 3 * LANDMARK_COUNT), None)
+    body = next((one for one in given if len(one) == 3 * WHOLE_BODY), None)
+    return body[3 * FACE.start : 3 * FACE.stop] if face is None and body is not None else face
 
 
 def _face(entry: _Annotation, path: Path) -> np.ndarray:

@@ -23,23 +23,27 @@ def is_dlib_xml(path: Path) -> bool:
 
 
 def read_dlib_xml(path: Path) -> Frames:
-    """Every box is a frame: ``picture.jpg``, or ``picture.jpg/2`` for the second box of a picture; a take of its own.
+    """Every box is a frame: ``picture.jpg``, or ``picture.jpg/2`` for the second box of a picture.
+
+    Each person is a take of its own: the nearest to where one was in the picture before.
 
     A box without parts has no face; parts are counted from 0 by name, missing ones are NaN. Boxes that
     are to be ignored are no faces. Pictures without a box have no frame, and take their time all the same.
     """
     labels: list[str] = []
     pictures: list[int] = []
+    names: list[str] = []
 
     def faces() -> Iterator[np.ndarray]:
-        for label, picture, face in _boxes(path):
-            labels.append(label)
+        for name, box, picture, face in _boxes(path):
+            labels.append(name if box == 1 else f"{name}/{box}")
             pictures.append(picture)
+            names.append(name)
             yield face
 
     points = stacked(faces(), path)
     frames = Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
-    return of_pictures(frames, pictures)
+    return of_pictures(frames, pictures, names)
 
 
 class _Reading:
@@ -47,7 +51,7 @@ class _Reading:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.whole: list[tuple[str, int, np.ndarray]] = []
+        self.whole: list[tuple[str, int, int, np.ndarray]] = []
         self.found = False
         self._image: str | None = None
         self._images = self._boxes = 0
@@ -74,8 +78,7 @@ class _Reading:
     def end(self, tag: str) -> None:
         if tag == "box" and self._face is not None:
             if not self._ignored:
-                name = self._image if self._boxes == 1 else f"{self._image}/{self._boxes}"
-                self.whole.append((name, self._images, self._face))
+                self.whole.append((self._image, self._boxes, self._images, self._face))
                 self.found = True
             self._face = None
         elif tag == "image" and self._face is None:
@@ -96,8 +99,8 @@ class _Reading:
         self._face[index] = place
 
 
-def _boxes(path: Path) -> Iterator[tuple[str, int, np.ndarray]]:
-    """Name, number of the picture and face (68, 2) of each box, as the file is read."""
+def _boxes(path: Path) -> Iterator[tuple[str, int, int, np.ndarray]]:
+    """Name of the picture, number of the box, number of the picture and face (68, 2), as the file is read."""
     reading, parser = _Reading(path), expat.ParserCreate()
     parser.StartDoctypeDeclHandler = reading.doctype
     parser.StartElementHandler, parser.EndElementHandler = reading.start, reading.end

@@ -1,7 +1,6 @@
 """Frames of landmarks, whatever file they came from."""
 
-from collections import Counter
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
@@ -10,6 +9,7 @@ import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
 from regress.errors import InputError
+from regress.runtime.inputs.people import people_of
 from regress.runtime.sample import Sample
 
 MOST_FRAMES = 1_000_000
@@ -35,7 +35,11 @@ class Frames:
     numbers : (n,) int64 or None
         Of the pictures that the faces are of, none less than the one before, where the file counts them.
     faces : tuple of str or None
-        Which of the faces in its picture each is, where pictures of a film have several.
+        Who each face is, where pictures of a film have several.
+    picture_names : tuple of str or None
+        What the picture that each is of is called, where pictures have several faces with labels of their own.
+    picture_px
+        Width and height of the pictures, where the file tells and all have the same.
     """
 
     points: np.ndarray
@@ -45,11 +49,23 @@ class Frames:
     irises: np.ndarray | None = None
     numbers: np.ndarray | None = None
     faces: tuple[str, ...] | None = None
+    picture_names: tuple[str, ...] | None = None
+    picture_px: tuple[int, int] | None = None
 
     @property
     def usable(self) -> np.ndarray:
         """(n,) bool: frames whose every point is a number."""
         return np.isfinite(self.points).all(axis=(1, 2))
+
+    @property
+    def shares(self) -> bool:
+        """Whether points are shares of a picture's width and height, 0 to 1, and no pixels."""
+        return bool(self.usable.any()) and are_shares(self.points[self.usable])
+
+    def in_pixels(self, picture_px: tuple[int, int]) -> "Frames":
+        """The frames with points in pixels of pictures of this size, of points that are shares of it."""
+        irises = None if self.irises is None else pixels_of(self.irises, picture_px)
+        return replace(self, points=pixels_of(self.points, picture_px), irises=irises, picture_px=picture_px)
 
     def take(self, rows: np.ndarray | list[int]) -> "Frames":
         """Some of the frames."""
@@ -60,7 +76,9 @@ class Frames:
             source=self.source,
             irises=None if self.irises is None else self.irises[rows],
             numbers=None if self.numbers is None else self.numbers[rows],
-            faces=None if self.faces is None else tuple(self.faces[row] for row in rows),
+            faces=_rows_of(self.faces, rows),
+            picture_names=_rows_of(self.picture_names, rows),
+            picture_px=self.picture_px,
         )
 
     def takes(self) -> dict[str | None, np.ndarray]:
@@ -88,7 +106,23 @@ class Frames:
         ]
 
 
-def of_pictures(frames: Frames, pictures: Sequence[int], faces: Sequence[str] | None = None) -> Frames:
+def _rows_of(names: tuple[str, ...] | None, rows: np.ndarray | list[int]) -> tuple[str, ...] | None:
+    return None if names is None else tuple(names[row] for row in rows)
+
+
+def are_shares(points: np.ndarray) -> bool:
+    """Whether points (..., 2), some of them numbers, all lie within 0 and 1: no face in pixels is so small."""
+    return bool(np.nanmin(points) >= 0 and np.nanmax(points) <= 1)
+
+
+def pixels_of(shares: np.ndarray, picture_px: tuple[int, int]) -> np.ndarray:
+    """Points (..., 2) in pixels, whose (0, 0) is the first one's centre, of shares of a picture's width and height."""
+    return shares * picture_px - 0.5
+
+
+def of_pictures(
+    frames: Frames, pictures: Sequence[int], names: Sequence[str], faces: Sequence[str] | None = None
+) -> Frames:
     """The frames with the pictures they are of, in whose order they are; a take each where some have several faces.
 
     Parameters
@@ -97,23 +131,16 @@ def of_pictures(frames: Frames, pictures: Sequence[int], faces: Sequence[str] | 
         Without ``numbers`` and ``faces``.
     pictures
         Place among all pictures of the one that each is of; pictures without a face count, as time passes in them.
+    names
+        What these pictures are called.
     faces
-        Which of the faces each is; by default its place among those of its picture, from 1.
+        Who each is; by default the nearest to who was there before, counted from 1.
     """
     frames = replace(frames, numbers=np.array(pictures, dtype=np.int64))
     if len(set(pictures)) == len(pictures):
         return frames
-    return replace(frames, faces=tuple(faces or places_of(pictures, first=1)))
-
-
-def places_of(pictures: Sequence[Hashable], *, first: int = 0) -> list[str]:
-    """Which face of its picture each is, by their order, counted from ``first``."""
-    seen: Counter[Hashable] = Counter()
-    places = []
-    for picture in pictures:
-        places.append(str(first + seen[picture]))
-        seen[picture] += 1
-    return places
+    faces = faces or people_of(frames.points, pictures, first=1)
+    return replace(frames, faces=tuple(faces), picture_names=tuple(names))
 
 
 def split_irises(points: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:

@@ -11,7 +11,7 @@ from pathlib import Path
 from facegen.documents import unreadable
 from facegen.formats.film import FILMS
 from regress.errors import InputError
-from regress.runtime.inputs import arrays, ck_plus, coco, dlib_xml, pts, tables
+from regress.runtime.inputs import arrays, ck_plus, coco, dlib_xml, instances, pts, tables
 from regress.runtime.inputs.frames import Frames
 
 
@@ -38,11 +38,20 @@ READERS: dict[str, Reader] = {
     "ck_plus": Reader(
         description="a folder of CK+ landmarks", matches=ck_plus.is_ck_plus, read=ck_plus.read_ck_plus
     ),
+    "openpose_folder": Reader(
+        description="a folder of OpenPose's .json files",
+        matches=instances.is_folder,
+        read=instances.read_folder,
+    ),
     "pts_folder": Reader(description="a folder of .pts files", matches=Path.is_dir, read=pts.read_folder),
     "pts": Reader(description="a .pts file", matches=pts.is_pts, read=pts.read_one),
-    "npy": Reader(description="an .npy file (n, 68, 2)", matches=arrays.is_array, read=arrays.read_array),
+    "npy": Reader(
+        description="an .npy file (n, 68, 2) or (n, 478, 2)", matches=arrays.is_array, read=arrays.read_array
+    ),
     "dlib_xml": Reader(description="a dlib .xml", matches=dlib_xml.is_dlib_xml, read=dlib_xml.read_dlib_xml),
-    "coco": Reader(description="a COCO keypoints .json", matches=coco.is_coco, read=coco.read_coco),
+    "coco": Reader(
+        description="a COCO keypoints, OpenPose or mmpose .json", matches=coco.is_json, read=coco.read_json
+    ),
     "csv": Reader(description="an OpenFace or py-feat .csv", matches=tables.is_table, read=tables.read_table),
 }
 """Tried in this order."""

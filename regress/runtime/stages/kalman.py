@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from facegen.conventions import BLENDSHAPE_INDEX, SIDES
 from regress.errors import InputError
 from regress.runtime.frame_noise import SECOND_DIFFERENCE
 from regress.runtime.sample import Sample
@@ -29,10 +30,19 @@ they are measured; and a least one, as shapes at rest are cut off at 0 and show 
 """
 
 _NOISE_RATE = 0.05
-"""Share by which the noise's median rises or falls a frame: it doubles in a second of 30 frames."""
+"""Share by which the noise's median rises or falls a frame: it doubles in a second of 30 frames. The same share of a
+second at each rate is worse by 0.007 of r at 60 and 120 frames a second.
+"""
 
-_PATIENCE = 1.25
-"""Share of the time to look ahead within which a frame is still waited for: 41 ms of 33, one frame at 24 a second."""
+_LATE_S = 0.0099
+"""By which a frame may come later than a filter looks ahead, and be waited for: so one of 33 ms waits for the next of a
+film of 23.976 frames a second. No usual rate's frames lie so far apart, so rounding decides nowhere.
+"""
+
+LIDS = tuple(f"{stem}{side.title()}" for side in SIDES for stem in ("eyeBlink", "eyeWide", "eyeSquint"))
+"""Shapes of the lids."""
+
+_LID_COLUMNS = [BLENDSHAPE_INDEX[name] for name in LIDS]
 
 
 class NoiseMeter:
@@ -51,7 +61,12 @@ class NoiseMeter:
         self._last: deque[np.ndarray] = deque(maxlen=2)
 
     def step(self, row: np.ndarray) -> np.ndarray:
-        """Standard deviation (k,) of the noise after a row (k,)."""
+        """Standard deviation (k,) of the noise after a row (k,).
+
+        A row that repeats the one before says nothing: dim webcams give each picture twice.
+        """
+        if self._last and np.array_equal(row, self._last[-1]):
+            return self.noise
         if len(self._last) == 2:
             size = np.abs(row - 2 * self._last[1] + self._last[0])
             rising = size > SECOND_DIFFERENCE * self.noise
@@ -86,10 +101,15 @@ class KalmanSmoothing(DelayingStage):
         Seconds; 0 gives each sample at once.
     noise : (k,) float64, optional
         Standard deviations of weights and gaze from frame to frame; measured on the way by default.
+    lids_ahead_s
+        Seconds of these by which lids are corrected; as far as all else by default.
     """
 
-    def __init__(self, ahead_s: float, noise: np.ndarray | None = None) -> None:
-        self._ahead_s, self._noise = ahead_s, noise
+    def __init__(
+        self, ahead_s: float, noise: np.ndarray | None = None, lids_ahead_s: float | None = None
+    ) -> None:
+        self._until_s, self._noise = _until(ahead_s), noise
+        self._lids_until_s = self._until_s if lids_ahead_s is None else _until(lids_ahead_s)
         self._meter: NoiseMeter | None = None
         self._time = -np.inf
         self._interval_s = np.inf
@@ -161,18 +181,33 @@ class KalmanSmoothing(DelayingStage):
         next_s = time_s + self._interval_s
         ready = []
         while self._waiting and (
-            self._waiting[0][1] is None or next_s - self._waiting[0][0].time_s > _PATIENCE * self._ahead_s
+            self._waiting[0][1] is None or next_s - self._waiting[0][0].time_s > self._until_s
         ):
             ready.append(self._release())
         return ready
 
     def _release(self) -> Sample:
         """The first of those that wait, corrected by all behind it."""
-        known = [estimate for _, estimate in self._waiting if estimate is not None]
+        known = [(other.time_s, estimate) for other, estimate in self._waiting if estimate is not None]
         sample, own = self._waiting.popleft()
         if own is None:
             return sample
-        mean = known[-1].mean
-        for estimate, after in zip(known[-2::-1], known[:0:-1], strict=True):
-            mean = estimate.mean + estimate.variance / after.foreseen * (mean - estimate.mean)
+        estimates = [estimate for _, estimate in known]
+        mean = _corrected(estimates)
+        if self._lids_until_s < self._until_s:
+            soon = sum(time_s - sample.time_s <= self._lids_until_s for time_s, _ in known)
+            mean[_LID_COLUMNS] = _corrected(estimates[:soon])[_LID_COLUMNS]
         return with_row(sample, mean)
+
+
+def _until(ahead_s: float) -> float:
+    """Seconds behind a frame until which later ones are waited for."""
+    return ahead_s + _LATE_S if ahead_s > 0 else 0.0
+
+
+def _corrected(estimates: list[_Estimate]) -> np.ndarray:
+    """Mean (k,) of the first frame's row, known from all of them; a new array."""
+    mean = estimates[-1].mean.copy()
+    for estimate, after in zip(estimates[-2::-1], estimates[:0:-1], strict=True):
+        mean = estimate.mean + estimate.variance / after.foreseen * (mean - estimate.mean)
+    return mean

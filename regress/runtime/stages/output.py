@@ -6,20 +6,17 @@ from functools import partial
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPES, SIDES
+from facegen.conventions import BLENDSHAPES
 from regress.errors import InputError
 from regress.runtime.sample import Sample
 from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sides, mirror
 from regress.runtime.stages.filters import FILTERS, Kalman, Mean
-from regress.runtime.stages.kalman import KalmanSmoothing
+from regress.runtime.stages.kalman import LIDS, KalmanSmoothing
 from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.own_blinks import TakeBlinks
 from regress.runtime.stages.retargeting.matrix import Retargeting
 from regress.runtime.stages.smoothing import MeanSmoothing, MovingAverage, OneEuroSmoothing
 from regress.runtime.stages.stage import BatchStage, Stage
-
-AMPLIFIED = tuple(f"{stem}{side.title()}" for side in SIDES for stem in ("eyeBlink", "eyeWide", "eyeSquint"))
-"""Shapes of the lids, which the second paper lets people exaggerate."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +36,7 @@ class Output:
     own_blinks
         Whether blinks are stretched by the fullest ones of the take, which is held back until its end.
     amplify_eyes
-        Factor on blink, wide and squint of each eye.
+        Factor on blink, wide and squint of each eye, which the second paper lets people exaggerate.
     adjustments
         Gain, offset, dead zone and limits by shape.
     left_right_blend
@@ -95,7 +92,7 @@ class Output:
         if self.own_blinks:
             made.append(TakeBlinks(say))
         if self.amplify_eyes != 1:
-            lids = dict.fromkeys(AMPLIFIED, ShapeAdjustment(gain=self.amplify_eyes))
+            lids = dict.fromkeys(LIDS, ShapeAdjustment(gain=self.amplify_eyes))
             made.append(WeightMap(partial(adjust, adjustments=lids)))
         if self.adjustments:
             made.append(WeightMap(partial(adjust, adjustments=self.adjustments)))
@@ -114,7 +111,7 @@ def filter_stage(name: str) -> Stage:
     if isinstance(settings, Mean):
         return MeanSmoothing(settings.behind, settings.ahead)
     if isinstance(settings, Kalman):
-        return KalmanSmoothing(settings.ahead_s)
+        return KalmanSmoothing(settings.ahead_s, lids_ahead_s=settings.lids_ahead_s)
     return OneEuroSmoothing(settings)
 
 

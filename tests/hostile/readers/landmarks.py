@@ -60,6 +60,14 @@ def _coco(folder: Path, workshop: Workshop) -> None:
     (folder / "faces.json").write_text(json.dumps({"images": images, "annotations": annotations}))
 
 
+def _openpose(folder: Path, workshop: Workshop) -> None:
+    (folder / "faces").mkdir(parents=True)
+    for number, face in enumerate(workshop.faces[:2]):
+        triples = np.column_stack([np.concatenate([face, face[:2]]), np.full(70, 0.9)])
+        people = [{"person_id": [-1], "face_keypoints_2d": triples.ravel().tolist()}]
+        (folder / "faces" / f"{number:06d}_keypoints.json").write_text(json.dumps({"people": people}))
+
+
 def _openface(folder: Path, workshop: Workshop) -> None:
     (folder / "take.csv").write_text(
         "\n".join((SAMPLES / "talking-face.csv").read_text().splitlines()[:6]) + "\n"
@@ -165,6 +173,14 @@ READERS = (
         target="faces/*/*/*.txt",
         kind="lines",
         covers=("input:ck_plus",),
+    ),
+    Reader(
+        name="openpose",
+        command=_PREDICT % "faces",
+        make=_openpose,
+        target="faces/*.json",
+        kind="json",
+        covers=("input:openpose_folder",),
     ),
     Reader(
         name="npy",

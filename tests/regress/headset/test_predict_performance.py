@@ -18,8 +18,9 @@ from regress.runtime.headset.predict import predict_footage
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.runtime.headset.seats import SeatWatch
 from regress.runtime.prediction import Prediction
+from regress.runtime.stages.kalman import LIDS
 from regress.runtime.stages.one_euro import OneEuro
-from regress.runtime.stages.output import AMPLIFIED, Output
+from regress.runtime.stages.output import Output
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
 from tests.regress.headset.tiny import NAMES, OWNER, R2, RMSE, write_tiny_model
 
@@ -233,7 +234,7 @@ def test_a_neutral_frame_needs_every_camera_in_use(predictor: HeadsetPredictor, 
 def test_amplified_lids_alone_change_and_stay_weights(predictor: HeadsetPredictor):
     footage = _footage(predictor, {name: [51, 153] for name in NAMES})
     plain, strong = _predict(predictor, footage), _predict(predictor, footage, output=Output(amplify_eyes=2))
-    lids = [name in AMPLIFIED for name in BLENDSHAPES]
+    lids = [name in LIDS for name in BLENDSHAPES]
     assert sum(lids) == 6
     assert strong.weights[:, lids] == pytest.approx(np.minimum(2 * plain.weights[:, lids], 1))
     assert np.array_equal(strong.weights[:, np.logical_not(lids)], plain.weights[:, np.logical_not(lids)])

@@ -1,18 +1,11 @@
-"""Turns what MediaPipe finds of a face, 478 points and a matrix, into 68 landmarks, irises and the head's pose."""
-
-from functools import cache
-from pathlib import Path
+"""Turns the matrix that MediaPipe finds of a face into the pose of the head."""
 
 import cv2
 import numpy as np
 
-from facegen.conventions import LANDMARK_COUNT, LANDMARK_GROUPS
-from facegen.documents import load_json
+from facegen.conventions import LANDMARK_COUNT
 from regress.runtime.heads.fit import FACING
 from regress.runtime.stages.head import angles_of
-
-VERTICES = 478
-"""Of the mesh with irises."""
 
 EYES_CM = np.array([0.0, 2.95, 2.28])
 """Origin of our head frame in MediaPipe's canonical face.
@@ -27,31 +20,6 @@ LEVEL = cv2.Rodrigues(np.array([-np.radians(8.0), 0.0, 0.0]))[0]
 Of four faces in films a fit of ours (`regress.runtime.heads.fit`) has pitches that are 6.2 to 9.6 degrees higher; one
 is an avatar that is known to look ahead.
 """
-
-_TABLE = Path(__file__).parent / "data" / "mediapipe_points.json"
-
-
-@cache
-def _table() -> tuple[np.ndarray, np.ndarray, list[int]]:
-    """First and second vertex of each landmark, often the same one, and the irises' vertices, the left eye's first."""
-    table = load_json(_TABLE)
-    vertices = [each for group in LANDMARK_GROUPS for each in table["landmarks"][group]]
-    return (
-        np.array([each[0] for each in vertices]),
-        np.array([each[-1] for each in vertices]),
-        [table["irises"]["left"], table["irises"]["right"]],
-    )
-
-
-def landmarks_of(mesh: np.ndarray) -> np.ndarray:
-    """68 landmarks (68, 2) of a mesh (478, 2), in the mesh's units."""
-    first, second, _ = _table()
-    return (mesh[first] + mesh[second]) / 2
-
-
-def irises_of(mesh: np.ndarray) -> np.ndarray:
-    """Centres of the irises (2, 2), the subject's left eye first, of a mesh (478, 2)."""
-    return mesh[_table()[2]]
 
 
 def head_of(camera_from_face: np.ndarray) -> np.ndarray:
