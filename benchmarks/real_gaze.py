@@ -20,8 +20,7 @@ from benchmarks.real_eyes import CAMERA, Film, dark_blob, fitted_without, read_f
 from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.eye_reader import EyeReader
 from regress.runtime.headset.gaze_map import DEGREES_AN_IRIS, gaze_map
-from regress.runtime.headset.levels import level_table
-from regress.runtime.headset.looks import levels_of
+from regress.runtime.headset.levels import levels_in
 from regress.runtime.headset.placement_search import find_placement
 from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
 from regress.runtime.headset.traced_eyes import eye_features, iris_diameter
@@ -48,7 +47,7 @@ def rows(predictor: HeadsetPredictor, film: Film) -> list[str]:
     placed = find_placement(predictor, CAMERA, film.pictures).placement
     width, height = predictor.sizes[CAMERA]
     views = np.stack([placed.view(one, width=width, height=height) for one in film.pictures])
-    views = level_table(*levels_of(views), predictor.model.looks[CAMERA])[views]
+    views = levels_in([views], predictor.model.looks[CAMERA]).apply(views)
     estimates, traced = predictor.see({CAMERA: views})
     points, eye = traced[CAMERA].astype(np.float64), EyePoints.of(predictor, CAMERA)
     matrix = placed.picture_from_view((film.pictures.shape[2], film.pictures.shape[1]), (width, height))
