@@ -80,9 +80,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> LoadFileS
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Counts of the hostile cases by reader and verdict; this file's, as the collecting process reads no other."""
     reports = [report for reports in terminalreporter.stats.values() for report in reports]
-    properties = [pair for report in reports for pair in getattr(report, "user_properties", ())]
-    verdicts = [verdict for name, found in properties if name == "hostile" for verdict in found]
-    for line in summary.lines(verdicts):
+    for line in summary.lines(summary.verdicts(reports)):
         terminalreporter.write_line(line)
 
 
