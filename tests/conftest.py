@@ -14,6 +14,7 @@ from facegen.rigs import Rig, load_rig
 from facegen.rigs.building import build_rig
 from tests.durations import Recorder, mark_longer, measured
 from tests.hostile import summary
+from tests.skips import SkipGuard, in_ci
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -26,6 +27,8 @@ def pytest_configure(config: pytest.Config) -> None:
     settings.load_profile("facegen")
     if config.getoption("--record-durations") and "PYTEST_XDIST_WORKER" not in os.environ:
         config.pluginmanager.register(Recorder())
+    if in_ci() and "PYTEST_XDIST_WORKER" not in os.environ:
+        config.pluginmanager.register(SkipGuard())
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
