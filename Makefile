@@ -117,7 +117,7 @@ test-headset: $(TESTER) models/headset-tiny/report.html  ## Headset networks: wh
 	$(BIN)/regress headset predict models/headset-tiny datasets/out/headset-tiny --out models/headset-tiny.csv
 	$(BIN)/python -m pytest $(TWO) $(TORCHED)
 
-test-quick: $(TESTER) $(RIG)  ## The 4,400 quick tests: two minutes on two cores say whether the tree is broken
+test-quick: $(TESTER) $(RIG)  ## Some 4,700 quick tests: about three minutes on two cores say whether the tree is broken
 	$(BIN)/python -m pytest $(TWO) $(ELSEWHERE) -m "not ($(LONG))"
 
 durations: $(TESTER) $(RIG)  ## Measure anew which tests are quick, on a machine with nothing else to do
