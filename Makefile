@@ -127,7 +127,8 @@ fuzz: $(TESTER) $(RIG)  ## Damaged inputs, new ones for MINUTES=60 (SEED= repeat
 	$(BIN)/python -m tests.hostile fuzz --minutes $(MINUTES) $(if $(SEED),--seed $(SEED))
 
 docs-test: $(TESTER)  ## Links, headings, commands and options of README and docs, and the code that they show
-	$(BIN)/python -m pytest tests/test_docs.py tests/facegen/test_reading_a_dataset.py tests/regress/exporters/test_examples.py
+	$(BIN)/python -m pytest tests/test_docs.py tests/test_page_code.py tests/facegen/test_reading_a_dataset.py \
+	  tests/regress/exporters/test_examples.py tests/room/test_studies.py
 
 lint: $(TESTER)  ## Style, and the direction of imports
 	$(BIN)/ruff check .
