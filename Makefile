@@ -117,7 +117,7 @@ test-headset: $(TESTER) models/headset-tiny/report.html  ## Headset networks: wh
 	$(BIN)/regress headset predict models/headset-tiny datasets/out/headset-tiny --out models/headset-tiny.csv
 	$(BIN)/python -m pytest $(TWO) $(TORCHED)
 
-test-quick: $(TESTER) $(RIG)  ## The 4,400 quick tests: two minutes on two cores say whether the tree is broken
+test-quick: $(TESTER) $(RIG)  ## Some 4,700 quick tests: about three minutes on two cores say whether the tree is broken
 	$(BIN)/python -m pytest $(TWO) $(ELSEWHERE) -m "not ($(LONG))"
 
 durations: $(TESTER) $(RIG)  ## Measure anew which tests are quick, on a machine with nothing else to do
@@ -127,7 +127,8 @@ fuzz: $(TESTER) $(RIG)  ## Damaged inputs, new ones for MINUTES=60 (SEED= repeat
 	$(BIN)/python -m tests.hostile fuzz --minutes $(MINUTES) $(if $(SEED),--seed $(SEED))
 
 docs-test: $(TESTER)  ## Links, headings, commands and options of README and docs, and the code that they show
-	$(BIN)/python -m pytest tests/test_docs.py tests/facegen/test_reading_a_dataset.py tests/regress/exporters/test_examples.py
+	$(BIN)/python -m pytest tests/test_docs.py tests/test_page_code.py tests/facegen/test_reading_a_dataset.py \
+	  tests/regress/exporters/test_examples.py tests/room/test_studies.py
 
 lint: $(TESTER)  ## Style, and the direction of imports
 	$(BIN)/ruff check .

@@ -14,6 +14,7 @@ from facegen.rigs import Rig, load_rig
 from facegen.rigs.building import build_rig
 from tests.durations import Recorder, mark_longer, measured
 from tests.hostile import summary
+from tests.skips import SkipGuard, in_ci
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -26,6 +27,8 @@ def pytest_configure(config: pytest.Config) -> None:
     settings.load_profile("facegen")
     if config.getoption("--record-durations") and "PYTEST_XDIST_WORKER" not in os.environ:
         config.pluginmanager.register(Recorder())
+    if in_ci() and "PYTEST_XDIST_WORKER" not in os.environ:
+        config.pluginmanager.register(SkipGuard())
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -80,9 +83,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> LoadFileS
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Counts of the hostile cases by reader and verdict; this file's, as the collecting process reads no other."""
     reports = [report for reports in terminalreporter.stats.values() for report in reports]
-    properties = [pair for report in reports for pair in getattr(report, "user_properties", ())]
-    verdicts = [verdict for name, found in properties if name == "hostile" for verdict in found]
-    for line in summary.lines(verdicts):
+    for line in summary.lines(summary.verdicts(reports)):
         terminalreporter.write_line(line)
 
 

@@ -23,6 +23,7 @@ from tests.samples import (
     assert_headset_as_recorded,
     rows,
 )
+from tests.skips import in_ci
 
 ROOT = Path(__file__).parents[1]
 
@@ -97,7 +98,7 @@ def installed(
     python = interpreter(version)
     if python is None:
         sentence = f"no Python {version} on this machine"
-        if request.config.getoption("--require-pythons") or os.environ.get("CI", "false") != "false":
+        if request.config.getoption("--require-pythons") or in_ci():
             pytest.fail(sentence)
         pytest.skip(sentence)
     if version not in folders:

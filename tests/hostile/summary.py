@@ -6,6 +6,13 @@ from collections.abc import Iterable, Iterator
 from tests.hostile.verdict import FAILURES, GOOD
 
 
+def verdicts(reports: Iterable[object]) -> list[tuple[str, str]]:
+    """Reader and verdict of each case, of the reports of a run: a test's end has what its call has, and counts once."""
+    calls = [report for report in reports if getattr(report, "when", None) == "call"]
+    properties = [pair for report in calls for pair in report.user_properties]
+    return [tuple(verdict) for name, found in properties if name == "hostile" for verdict in found]
+
+
 def lines(verdicts: Iterable[tuple[str, str]]) -> Iterator[str]:
     """A table of readers by verdict, of what was seen, and its totals.
 

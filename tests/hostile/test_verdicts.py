@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from tests.hostile.readers import READERS
-from tests.hostile.summary import lines
+from tests.hostile.summary import lines, verdicts
 from tests.hostile.trial import HONEST, Case
 
 QUICK = {"cpu_s": 1, "wall_s": 3.0, "memory_bytes": 300_000_000}
@@ -59,9 +59,18 @@ def test_a_case_repeats(attempt):
 
 
 def test_verdicts_are_counted():
-    verdicts = [("npy", "accepted"), ("npy", "refused"), ("coco", "traceback"), ("coco", "time")]
-    *_, last = lines(verdicts)
+    seen = [("npy", "accepted"), ("npy", "refused"), ("coco", "traceback"), ("coco", "time")]
+    *_, last = lines(seen)
     assert last == (
         "4 hostile cases: 1 accepted, 1 refused, 1 tracebacks, 1 over limits of time or memory, 2 failures in all"
     )
     assert list(lines([])) == []
+
+
+def test_a_test_counts_once_though_three_reports_tell_of_it():
+    told = [("hostile", [["npy", "accepted"], ["coco", "refused"]]), ("other", 1)]
+    reports = [
+        pytest.TestReport("a", ("a.py", 0, "a"), {}, "passed", None, when, user_properties=known)
+        for when, known in (("setup", []), ("call", told), ("teardown", told))
+    ]
+    assert verdicts([*reports, "a warning"]) == [("npy", "accepted"), ("coco", "refused")]

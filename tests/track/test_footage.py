@@ -38,7 +38,7 @@ def grey(number: int) -> np.ndarray:
 def test_what_was_seen_together_is_read_together(tmp_path_factory, times: int, lost: list[int]):
     """Of an eye that loses pictures, and a mouth that has one for several of them."""
     folder = tmp_path_factory.mktemp("takes") / "take"
-    seen: list[tuple[np.ndarray | None, np.ndarray]] = []
+    seen: list[tuple[np.ndarray | None, np.ndarray, bool]] = []
     with FootageWriter(folder, ["left_eye", "mouth"]) as writer:
         for moment in range(30):
             if moment % times == 0:
@@ -46,21 +46,20 @@ def test_what_was_seen_together_is_read_together(tmp_path_factory, times: int, l
             pictures = {"mouth": mouth} | ({} if moment in lost else {"left_eye": grey(moment)})
             new = moment % times == 0 or moment not in lost
             if new:
-                seen.append((pictures.get("left_eye"), mouth))
+                seen.append((pictures.get("left_eye"), mouth, moment % times == 0))
             writer.write(Sample(label="", time_s=moment / 60, pictures=pictures))
     assert writer.written == {"left_eye": 30 - len(lost), "mouth": len(range(0, 30, times))}
-    takes = {
-        name: read_recording(folder / name, name, width=64, height=48)
-        for name, count in writer.written.items()
-        if count
-    }
+    takes = {name: read_recording(folder / name, name, width=64, height=48) for name in writer.written}
     footage = line_up(takes, SIZES)
-    assert len(footage.numbers) <= len(seen)
-    for number, row in zip(footage.numbers, range(len(seen)), strict=False):
-        left, mouth = seen[number]
+    assert footage.numbers.tolist() == list(range(len(seen)))
+    for row, (left, mouth, is_new) in enumerate(seen):
+        faults = {name: footage.faults[name][row] for name in SIZES}
+        assert (faults["left_eye"] is None) == (left is not None)
         if left is not None:
             assert np.array_equal(footage.pictures["left_eye"][row], left)
-        if footage.faults["mouth"][row] is None:
+        # a picture counts at its own moment, and may stand for later ones
+        assert faults["mouth"] is None or not is_new
+        if faults["mouth"] is None:
             assert np.array_equal(footage.pictures["mouth"][row], mouth)
     lines = (folder / "times.csv").read_text().splitlines()
     assert lines[0] == "frame,time_s"

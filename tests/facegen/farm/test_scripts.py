@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import os
 import shlex
 import subprocess
 from collections import Counter
@@ -12,7 +13,7 @@ import pytest
 from facegen.errors import InputError
 from facegen.farm import Chunk, Job, Resources, Submission, cut_chunks
 from facegen.farm.openjd import deadline_values, job_template, path_mapping
-from facegen.farm.slurm import read_squeue, sbatch_script
+from facegen.farm.slurm import Slurm, read_squeue, sbatch_script
 from facegen.number_ranges import sample_numbers
 
 GOLDEN = Path(__file__).with_name("golden")
@@ -102,8 +103,24 @@ def test_arguments_that_hide_tasks_are_refused(argument):
 @pytest.mark.parametrize(
     "argument", ["--account=mine", "-Amine", "--mail-type=END", "mine", "--comment=--array"]
 )
-def test_other_arguments_are_passed_on(argument):
-    sbatch_script(dataclasses.replace(JOB, resources=Resources(sbatch_args=(argument,))), "generate")
+def test_other_arguments_are_passed_on(argument, tmp_path, monkeypatch):
+    """To every step's sbatch, as one word each and before the script: what stands behind it is the script's own."""
+    told = tmp_path / "told.txt"
+    sbatch = tmp_path / "sbatch"
+    sbatch.write_text(f"#!/bin/sh\nprintf '%s\\n' \"$@\" >> {told}\necho end >> {told}\necho 41\n")
+    sbatch.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    resources = Resources(sbatch_args=("--partition=cpu", argument))
+    job = dataclasses.replace(JOB, out=str(tmp_path), steps=("generate", "validate"), resources=resources)
+    for step in job.steps:
+        sbatch_script(job, step)  # refuses nothing
+    assert Slurm().submit(job).ids == {"generate": "41", "validate": "41"}
+    first, second = told.read_text().split("end\n")[:2]
+    ours = ["--kill-on-invalid-dep=yes", "--partition=cpu", argument]
+    assert first.splitlines() == ["--parsable", *ours, str(job.folder / "generate.sh")]
+    assert second.splitlines() == [
+        *("--parsable", "--dependency=afterok:41", *ours, str(job.folder / "validate.sh")),
+    ]
 
 
 def test_names_with_blanks_and_percents_survive():

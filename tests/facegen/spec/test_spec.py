@@ -19,6 +19,7 @@ from facegen.spec import (
     LABEL_VERSION,
     draw,
     load_spec,
+    loading,
     parse_spec,
     sample_numbers,
     spec_hash,
@@ -47,6 +48,18 @@ YOUNG = {
     "layout": {"count": 3},
 }
 """Keys that came after the first datasets, and values other than their defaults."""
+LITERAL = {
+    "still": ({}, "0ff58934e38a4aa78f46689aed413e3ad231966d66ade17eeaeb57c2ba2161b3"),
+    "sequence": (
+        {"kind": "sequence"},
+        "efd719f1d3ab2d596f2d2f3e0aa4e29f9835ba4b83f40cfcb3b608f202e65a72",
+    ),
+    "playback": (
+        {"kind": "playback", "playback": {"recording": "take.csv", "fps": 30}},
+        "ac040819fb0725d9a102930ce89ac317a7bafab6bdaf25e7aaea4f9424195bc4",
+    ),
+}
+"""Specs, and their hashes of label version 7 as they were written with the first datasets of that version."""
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "datasets").glob("*.toml")), ids=lambda p: p.stem)
@@ -150,6 +163,13 @@ def test_young_keys_stay_out_of_the_hash_of_specs_that_do_not_use_them():
         *outer, key = path.split(".")
         reduce(dict.__getitem__, outer, used)[key] = value
         assert spec_hash(parse_spec(used, where=""), asset_sha256=assets) != base, path
+
+
+@pytest.mark.parametrize(("change", "sha256"), LITERAL.values(), ids=LITERAL)
+def test_hashes_are_those_of_datasets_that_exist(change, sha256, monkeypatch):
+    """A key that is new and not late would give every dataset another hash, and all that is made would be refused."""
+    monkeypatch.setattr(loading, "LABEL_VERSION", 7)
+    assert spec_hash(parse_spec(SMALL | change, where=""), asset_sha256={"rig": "a"}) == sha256
 
 
 def test_hash_depends_on_what_decides_samples_and_on_nothing_else():

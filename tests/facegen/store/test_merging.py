@@ -173,3 +173,13 @@ def test_a_merge_that_was_killed_at_its_start_goes_on(tmp_path):
     assert (tmp_path / "all" / "headset.toml").read_text() == "mine"
     (tmp_path / "all" / "headset.toml").unlink()
     assert merge([one], tmp_path / "all").taken == 1
+
+
+@pytest.mark.parametrize(("option", "links"), [([], 2), (["--copy"], 1)])
+def test_files_are_links_unless_copies_are_asked_for(tmp_path, option, links):
+    one, two = (keypoints(tmp_path / name) for name in ("one", "two"))
+    words = ["merge", str(one), str(two), "--out", str(tmp_path / "all"), *option]
+    assert CliRunner().invoke(app, words).exit_code == 0
+    (shard,) = (tmp_path / "all" / "keypoints").iterdir()
+    assert shard.stat().st_nlink == links
+    assert shard.read_bytes() == next((one / "keypoints").iterdir()).read_bytes()

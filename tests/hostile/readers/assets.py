@@ -180,6 +180,7 @@ READERS = (
         make=_clone,
         target="clone/FaceXModel/*.obj",
         kind="lines",
+        covers=("rig:ict",),
         honest="refused",
         environment={"FACEGEN_RIGS": "out"},
     ),

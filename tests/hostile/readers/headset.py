@@ -133,6 +133,7 @@ READERS = (
         make=_placement,
         target="placement.toml",
         kind="toml",
+        covers=("track:placement",),
     ),
     Reader(
         name="person",

@@ -331,6 +331,27 @@ def test_a_gaze_is_told_and_one_of_other_targets_is_asked_about(run, tmp_path: P
     assert f"gaze of left_eye is off its targets by {off_deg:.1f} degrees" in said
 
 
+def test_near_targets_turn_both_eyes_inwards(run, tmp_path: Path):
+    """How far away they lie decides where each eye must look; far is what nobody has to say."""
+    targets = (word for each in ("10:0:0", "40:0:0", "70:0:0") for word in ("--looked-at", each))
+    words = ["headset", "calibrate", *CAMERAS, "--rest", REST, "--look", "10-80", *targets]
+    eyes = {}
+    for name, more in (("unsaid", ()), ("far", ("--distance-m", 1000)), ("near", ("--distance-m", 0.3))):
+        code, _, said = run(*words, *more, "--out", tmp_path / f"{name}.json")
+        assert code == 0, said
+        eyes[name] = read_person(tmp_path / f"{name}.json").eyes
+    inward_deg = np.degrees(np.arctan(guided.HALF_APART_M / 0.3))
+    for camera, sign in (("left_eye", -1), ("right_eye", 1)):
+        (*_, far_deg), pitch = eyes["far"][camera].traced
+        (*_, near_deg), same_pitch = eyes["near"][camera].traced
+        assert near_deg - far_deg == pytest.approx(sign * inward_deg, abs=0.01)
+        assert pitch == pytest.approx(same_pitch)
+    assert eyes["unsaid"] == eyes["far"]
+    code, _, said = run(*words, "--distance-m", 0, "--out", tmp_path / "no.json")
+    assert code == 2
+    assert "--distance-m" in said
+
+
 def test_a_person_without_anything_changes_nothing():
     weights = np.linspace(0, 1, 52)
     np.testing.assert_allclose(OwnEnds.of(Person(), {}).apply(weights, None), weights)
