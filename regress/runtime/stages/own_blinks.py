@@ -1,4 +1,4 @@
-"""Stretches eyeBlink by the person's own blinks: the fullest of them reads 1.
+"""Stretches eyeBlink by the person's own blinks: the fullest of them but one reads 1.
 
 A network of rendered people tells a real shut eye from an open one, and reads it as half shut (docs/your-camera.md).
 People blink ten to twenty times a minute, so nobody has to be asked: a blink goes up and down within half a second, and
@@ -28,7 +28,10 @@ FEWEST = 8
 was .54 to .96, of the first eight .94 to .96 (a probe)."""
 
 REMEMBERED = 40
-"""Blinks of which the fullest counts, some two minutes: a headset slips, and a hand before the eye is forgotten."""
+"""Blinks that count while frames come, some two minutes: a headset slips, and a hand before the eye is forgotten."""
+
+_ONE_IN = 20
+"""Blinks of which one may be none: a glitch of the detector, or an eye that was squeezed; of fewer blinks one too."""
 
 OPEN = 0.1
 """Reading up to which any eye counts as open, and nothing is stretched: its noise stays what it was. An eye that reads
@@ -83,6 +86,8 @@ class BlinkWatch:
     ----------
     before
         What is known of the eye from another day.
+    remembered
+        Blinks that count; None for all.
 
     Attributes
     ----------
@@ -92,9 +97,9 @@ class BlinkWatch:
         The person's own; ``before`` while too few blinks were seen.
     """
 
-    def __init__(self, before: Ends = WHOLE) -> None:
-        self.peaks: deque[float] = deque(maxlen=REMEMBERED)
-        self.feet: deque[float] = deque(maxlen=REMEMBERED)
+    def __init__(self, before: Ends = WHOLE, *, remembered: int | None = REMEMBERED) -> None:
+        self.peaks: deque[float] = deque(maxlen=remembered)
+        self.feet: deque[float] = deque(maxlen=remembered)
         self.ends = before
         self._times: deque[float] = deque()
         self._readings: deque[float] = deque()
@@ -126,13 +131,18 @@ class BlinkWatch:
                 self.peaks.append(float(readings[row]))
                 self.feet.append(_foot(before, after))
                 if len(self.peaks) >= FEWEST:
-                    self.ends = Ends(open=max(OPEN, float(np.median(self.feet))), full=max(self.peaks))
+                    self.ends = Ends(open=max(OPEN, float(np.median(self.feet))), full=_fullest(self.peaks))
                 return True
         return False
 
 
 def _foot(before: np.ndarray, after: np.ndarray) -> float:
     return float(max(before.min(), after.min()))
+
+
+def _fullest(peaks: Sequence[float]) -> float:
+    """The fullest reading below those that may be of no blink."""
+    return sorted(peaks)[-1 - max(1, len(peaks) // _ONE_IN)]
 
 
 def _is_blink(before: np.ndarray, after: np.ndarray) -> bool:
@@ -203,7 +213,7 @@ class TakeBlinks(DelayingStage):
 
     def __init__(self, say: Callable[[str], None] = lambda message: None) -> None:
         self._say = say
-        self._eyes = (BlinkWatch(), BlinkWatch())
+        self._eyes = (BlinkWatch(remembered=None), BlinkWatch(remembered=None))
         self._held: list[Sample] = []
 
     def feed(self, sample: Sample) -> list[Sample]:
