@@ -199,7 +199,7 @@ class _Head(Stage):
     def __init__(self, neutral: NeutralFace | None = None) -> None:
         points = None if neutral is None else neutral.frames("points")
         irises = None if neutral is None else neutral.frames("irises")
-        self._fitted = HeadPose(HeadSettings(neutral=points, neutral_irises=irises))
+        self._fitted = HeadPose(HeadSettings(neutral=points, neutral_irises=irises, into_camera=True))
         self._given = IrisGaze(neutral)
 
     def use_straight_ahead(self, gaze: np.ndarray) -> None:
