@@ -1,5 +1,7 @@
 """A person's own blinks: what counts as one, when they are trusted, and what is never touched."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -20,6 +22,7 @@ from regress.runtime.stages.own_blinks import (
 )
 
 FPS = 60
+SAMPLES = Path(__file__).resolve().parents[2] / "docs" / "samples"
 
 
 def lid(peaks: list[float], *, fps: float = FPS, half_s: float = 0.1, apart_s: float = 2.0) -> np.ndarray:
@@ -233,3 +236,27 @@ def test_samples_without_weights_or_times_pass():
         found = [*stage.feed(samples[0]), *stage.feed(samples[1]), *stage.finish()]
         assert [sample.label for sample in found] == ["0", "1"]
         np.testing.assert_array_equal(found[1].weights, 0.3)
+
+
+def test_a_recording_of_landmarks_is_stretched_by_its_own_blinks(run):
+    """Weights as they leave without the option go through the very stage, and the person is told."""
+    command = ("predict", "landmarks-default", SAMPLES / "talking-face.csv", "--neutral", "1-30")
+    code, plain, _ = run(*command)
+    assert code == 0
+    code, stretched, told = run(*command, "--own-blinks")
+    assert code == 0
+    rows, found = ([line.split(",") for line in text.splitlines()] for text in (plain, stretched))
+    columns = [rows[0].index(name) for name in ("eyeBlinkLeft", "eyeBlinkRight")]
+    read = np.array([[float(row[column]) for column in columns] for row in rows[1:]])
+    said: list[str] = []
+    expected = blinks_of(TakeBlinks(said.append).run(take(read[:, 0], read[:, 1], fps=30)))
+    assert (expected > read + 0.1).any()
+    shown = np.array([[float(row[column]) for column in columns] for row in found[1:]])
+    np.testing.assert_allclose(shown, expected, atol=1e-3)
+    assert said[0] in told
+
+
+def test_lines_that_are_answered_as_they_come_have_no_take_to_go_by(run):
+    code, _, told = run("predict", "landmarks-default", "-", "--own-blinks")
+    assert code == 2
+    assert "--own-blinks needs a whole take" in told
