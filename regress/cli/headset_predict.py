@@ -23,6 +23,7 @@ from regress.cli.options import (
     MouthOption,
     OneEuroOption,
     OutOption,
+    OwnBlinksOption,
     RetargetOption,
     RightEyeOption,
     SmoothOption,
@@ -107,12 +108,7 @@ def predict(
             help="JSON with gain, offset, dead_zone, low and high by shape; a resting face is --neutral's.",
         ),
     ] = None,
-    own_blinks: Annotated[
-        bool,
-        typer.Option(
-            "--own-blinks", help="Stretch blinks by the fullest ones of the take, which then shut the eyes."
-        ),
-    ] = False,
+    own_blinks: OwnBlinksOption = False,
     amplify_eyes: Annotated[
         float,
         typer.Option("--amplify-eyes", min=0, max=1000, help="Factor on blink, wide and squint of each eye."),

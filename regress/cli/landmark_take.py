@@ -117,6 +117,7 @@ def predict_file(
             confident=trust is not None,
             head=_head_settings(camera, calm[face]),
             keep_guessed_gaze=keep_guessed_gaze,
+            say=say,
         )
         for row, sample in zip(rows, prediction.samples, strict=True):
             samples[row] = sample

@@ -88,6 +88,13 @@ BlendOption = Annotated[
     typer.Option("--left-right-blend", min=0, max=1, help="0 leaves left and right, 1 averages them."),
 ]
 
+OwnBlinksOption = Annotated[
+    bool,
+    typer.Option(
+        "--own-blinks", help="Stretch blinks by the full ones of the take, which then shut the eyes."
+    ),
+]
+
 MirrorOption = Annotated[bool, typer.Option("--mirror", help="Exchange left and right.")]
 
 HeadOption = Annotated[

@@ -20,6 +20,7 @@ from regress.cli.options import (
     ModelOption,
     OneEuroOption,
     OutOption,
+    OwnBlinksOption,
     PictureOption,
     RetargetOption,
     SmoothOption,
@@ -85,6 +86,7 @@ def predict(
         Path | None,
         typer.Option("--adjust", help="JSON with gain, offset, dead_zone, low and high by shape."),
     ] = None,
+    own_blinks: OwnBlinksOption = False,
     left_right_blend: BlendOption = 0.0,
     mirror: MirrorOption = False,
     head: HeadOption = False,
@@ -116,6 +118,11 @@ def predict(
     from regress.runtime.predict import PAPER_RECIPE
 
     model, landmarks = model_and_input(arguments, chosen)
+    if own_blinks and str(landmarks) == "-":
+        raise InputError(
+            "--own-blinks needs a whole take, and lines of standard input are answered as they come: name a file, or "
+            "leave it out"
+        )
     loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
     output = output_of(
         smooth_landmarks_hz=smooth_landmarks_hz,
@@ -123,6 +130,7 @@ def predict(
         smooth=smooth,
         cutoff_hz=cutoff_hz,
         beta=beta,
+        own_blinks=own_blinks,
         adjust=adjust,
         left_right_blend=left_right_blend,
         mirror=mirror,

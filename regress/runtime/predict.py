@@ -46,7 +46,7 @@ def landmark_chain(
     auto
         Whether to look for the neutral face while frames come.
     say
-        Told when it is found.
+        Told when it is found, and what was found of a take's own blinks.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def landmark_chain(
         before.append(LandmarkConfidence(networks))
     if output.smooth_landmarks_hz is not None:
         before.append(LandmarkSmoothing(output.smooth_landmarks_hz, model.features.mean_shape))
-    return Chain([*before, networks, Looks(fade=fade), *output.stages()])
+    return Chain([*before, networks, Looks(fade=fade), *output.stages(say)])
 
 
 def predict_frames(
@@ -75,6 +75,7 @@ def predict_frames(
     confident: bool = False,
     head: HeadSettings | None = None,
     keep_guessed_gaze: bool = False,
+    say: Callable[[str], None] = lambda message: None,
 ) -> Prediction:
     """Weights of a recording, finished as asked: each sample as `landmark_chain` steps it.
 
@@ -82,7 +83,7 @@ def predict_frames(
     ----------
     model, frames
         What to run on what; calibrate the model first where a neutral frame is known.
-    output, confident, head, keep_guessed_gaze
+    output, confident, head, keep_guessed_gaze, say
         As `landmark_chain` takes them.
 
     Raises
@@ -92,7 +93,7 @@ def predict_frames(
     """
     output = output or Output()
     samples = landmark_chain(
-        model, output, confident=confident, head=head, keep_guessed_gaze=keep_guessed_gaze
+        model, output, confident=confident, head=head, keep_guessed_gaze=keep_guessed_gaze, say=say
     ).run(frames.samples())
     return Prediction(samples=samples, names=output.names, source=frames.source)
 

@@ -16,7 +16,13 @@ from regress.runtime.features import extract
 from regress.runtime.model import Model, load_model, save_model
 from regress.runtime.networks import evaluate
 from regress.runtime.sample import Sample
-from regress.runtime.stages.networks import AutomaticCalibration, LandmarkNetworks
+from regress.runtime.stages.networks import (
+    AGAIN_AT_S,
+    FORGOTTEN_S,
+    SURE_FROM_S,
+    AutomaticCalibration,
+    LandmarkNetworks,
+)
 from regress.runtime.stages.neutral import estimate_neutral, frame_rate
 from tests.regress.conftest import QUICK, write_dataset
 from tests.regress.drawn import SHAPE_MODES_SEED, drawn_face, drawn_faces, in_pictures
@@ -279,6 +285,88 @@ def test_live_auto_takes_as_many_seconds_at_any_frame_rate(quick_model: Model, f
     (line,) = said
     told_s = int(line.split()[1].rstrip(":")) / fps
     assert told_s == pytest.approx(10, abs=0.3)
+
+
+class Live:
+    """Faces before `AutomaticCalibration` as they come, 30 a second, with times or without."""
+
+    def __init__(self, model: Model, *, timed: bool = True) -> None:
+        self.said: list[str] = []
+        self.networks = LandmarkNetworks(model)
+        self.stage = AutomaticCalibration(self.networks, self.said.append)
+        self._timed, self._row = timed, 0
+        self._rng = np.random.default_rng(4)
+
+    def show(self, face: np.ndarray, seconds: float, fps: float = 30) -> None:
+        """Show a face at rest, with a detector's noise."""
+        for _ in range(round(seconds * fps)):
+            time_s = self._row / fps if self._timed else None
+            points = face + self._rng.normal(size=face.shape) * 3e-4 * np.ptp(face[:, 0])
+            self.stage.step(Sample(label=str(self._row), time_s=time_s, points=points))
+            self._row += 1
+
+    def shows(self, face: np.ndarray) -> bool:
+        """Whether frames are compared with this face."""
+        found = self.stage.neutral
+        return found is not None and np.allclose(np.median(found, axis=0), face, atol=0.003)
+
+
+REST, SMILE = drawn_face(), drawn_face() + 0.02
+SMILE[48:] += 0.05
+GONE = np.full((68, 2), np.nan)
+
+
+@pytest.mark.parametrize("fps", [20, 30, 120])
+def test_live_auto_is_not_sure_before_ten_seconds_of_a_face(quick_model: Model, fps: int):
+    """Two seconds at rest may be a look at something, held."""
+    live = Live(quick_model)
+    live.show(GONE, 12, fps)
+    live.show(REST, SURE_FROM_S - 0.1, fps)
+    assert live.networks.model is quick_model
+    live.show(REST, 0.2, fps)
+    assert live.shows(REST)
+    assert np.array_equal(live.networks.model.predict(FACES), _calibrated(quick_model, live).predict(FACES))
+
+
+def _calibrated(model: Model, live: Live) -> Model:
+    return model.calibrate(live.stage.neutral)
+
+
+def test_live_auto_replaces_what_it_found_first_and_then_lets_it_be(quick_model: Model):
+    """Who is taken for neutral with a smile need only rest longer than that once."""
+    live = Live(quick_model)
+    live.show(SMILE, 10.1)
+    assert live.shows(SMILE)
+    first = live.networks.model
+    live.show(REST, AGAIN_AT_S[-1] - 10)
+    assert live.shows(REST)
+    assert np.array_equal(live.networks.model.predict(FACES), _calibrated(quick_model, live).predict(FACES))
+    assert not np.allclose(live.networks.model.predict(FACES), first.predict(FACES))
+    assert len(live.said) == 1
+    live.show(SMILE, 40)
+    assert live.shows(REST)
+
+
+@pytest.mark.parametrize("timed", [False, True])
+def test_live_auto_begins_anew_where_the_face_was_away(quick_model: Model, timed: bool):
+    """Somebody else may sit down. A hand before the face is no such thing."""
+    live = Live(quick_model, timed=timed)
+    live.show(REST, 10.1)
+    live.show(GONE, FORGOTTEN_S - 0.1)
+    live.show(SMILE, 1)
+    assert live.shows(REST)
+    live.show(GONE, FORGOTTEN_S + 0.1)
+    assert live.shows(REST)
+    live.show(SMILE, 9)
+    assert live.stage.neutral is None
+    assert live.networks.model is quick_model
+    live.show(SMILE, 2)
+    assert live.shows(SMILE)
+    assert [line.split(": ")[1].split(" (")[0] for line in live.said] == [
+        "neutral face found",
+        "a face is back; its neutral face is looked for anew",
+        "neutral face found",
+    ]
 
 
 @pytest.fixture

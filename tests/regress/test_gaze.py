@@ -51,6 +51,7 @@ def seen(
     *,
     beside_m: float = 0.0,
     place: tuple[float, float, float] = (0.0, 0.0, 0.6),
+    camera: FaceCamera = CAMERA,
 ) -> tuple[np.ndarray, np.ndarray, HeadPoses]:
     """A face (68, 2), its irises (2, 2), and its pose; eyeballs lie up to ``beside_m`` beside the mean face's."""
     rotation = FACING @ rotation_from_angles(*head_rad)
@@ -61,7 +62,7 @@ def seen(
 
     def picture(there: np.ndarray) -> np.ndarray:
         in_camera = there @ rotation.T + translation
-        return CAMERA.focal_px * in_camera[:, :2] / in_camera[:, 2:] + CAMERA.centre_px
+        return camera.focal_px * in_camera[:, :2] / in_camera[:, 2:] + camera.centre_px
 
     pose = HeadPoses(rotation=rotation[None], translation=translation[None], coefficients=np.zeros((1, 0)))
     return picture(MEAN), picture(irises), pose
@@ -105,6 +106,30 @@ def test_neutral_irises_show_where_a_person_s_eyes_lie(gaze: np.ndarray, head: n
     eyes = own_eyes(face[None], irises[None], pose, CAMERA)
     np.testing.assert_allclose(eyes.ball_m - MEAN_EYES.ball_m, [[0.001, -0.001, 0]] * 2, atol=5e-5)
     face, irises, pose = seen(head, gaze, beside_m=0.001, place=(0.05, -0.03, 0.6))
+    found = gaze_angles(face[None], irises[None], pose, CAMERA, eyes).ravel()
+    np.testing.assert_allclose(np.degrees(found), np.degrees(gaze), atol=3.0)
+
+
+def into_camera(head_rad: np.ndarray, place: tuple[float, float, float]) -> np.ndarray:
+    """Gaze (4,) in the head frame of eyes that look into the camera, from a head that is turned like this."""
+    balls = MEAN[np.array(CORNERS)].mean(axis=1) + MEAN_EYES.ball_m
+    towards = -np.array(place) @ FACING @ rotation_from_angles(*head_rad) - balls
+    towards /= np.linalg.norm(towards, axis=1, keepdims=True)
+    return np.stack([np.arctan2(towards[:, 0], towards[:, 2]), np.arcsin(towards[:, 1])], axis=1).ravel()
+
+
+PLACES = st.tuples(st.floats(-0.1, 0.1), st.floats(-0.1, 0.1), st.floats(0.4, 1.0))
+
+
+@given(neutral_head=HEADS.map(lambda head: head / 2), place=PLACES, gaze=GAZES)
+def test_neutral_irises_that_look_into_the_camera_show_it_from_any_head(
+    neutral_head: np.ndarray, place: tuple[float, float, float], gaze: np.ndarray
+):
+    """A head that is held down before a screen has eyes that look up, and later not all looks go down."""
+    looks = into_camera(neutral_head, place)
+    face, irises, pose = seen(neutral_head, looks, beside_m=0.001, place=place)
+    eyes = own_eyes(face[None], irises[None], pose, CAMERA, into_camera=True)
+    face, irises, pose = seen(np.zeros(3), gaze, beside_m=0.001)
     found = gaze_angles(face[None], irises[None], pose, CAMERA, eyes).ravel()
     np.testing.assert_allclose(np.degrees(found), np.degrees(gaze), atol=3.0)
 

@@ -1,5 +1,7 @@
 """A person's own blinks: what counts as one, when they are trusted, and what is never touched."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -20,6 +22,7 @@ from regress.runtime.stages.own_blinks import (
 )
 
 FPS = 60
+SAMPLES = Path(__file__).resolve().parents[2] / "docs" / "samples"
 
 
 def lid(peaks: list[float], *, fps: float = FPS, half_s: float = 0.1, apart_s: float = 2.0) -> np.ndarray:
@@ -61,6 +64,30 @@ def test_every_blink_counts_by_its_height(peaks: list[float], fps: int, half_s: 
     watch = watched(lid(peaks, fps=fps, half_s=half_s), fps)
     np.testing.assert_allclose(watch.peaks, peaks)
     assert watch.ends == Ends(open=OPEN, full=max(watch.peaks))
+
+
+@given(
+    fps=st.sampled_from([30, 60, 120]),
+    spikes=st.sets(st.integers(1, 2 * FEWEST), min_size=1),
+    to=st.floats(0.6, 1),
+)
+def test_a_glitch_of_one_frame_is_no_blink(fps: int, spikes: set[int], to: float):
+    """One of 1 left forty blinks as they were read."""
+    readings = lid([0.5] * (FEWEST + 2), fps=fps)
+    for spike in spikes:
+        readings[round((spike + 0.5) * fps)] = to
+    watch = watched(readings, fps)
+    np.testing.assert_allclose(watch.peaks, 0.5)
+    assert watch.ends.full == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize("many", [1, 3])
+def test_of_many_blinks_one_in_forty_may_be_none(many: int):
+    """An eye that was rubbed."""
+    watch = BlinkWatch(remembered=None)
+    for row, reading in enumerate(lid([1.0] * many + [0.5] * (REMEMBERED - 1) * many)):
+        watch.step(row / FPS, float(reading))
+    assert watch.ends.full == pytest.approx(0.5)
 
 
 @given(reading=st.floats(0, 1), more=st.floats(0, 1), opened=st.floats(OPEN, 0.5), above=st.floats(0.01, 0.5))
@@ -144,8 +171,16 @@ def test_a_known_eye_and_all_other_shapes_stay():
 
 def test_only_the_last_blinks_count():
     """Who rubs an eye shuts it further than any blink: two minutes later that is forgotten."""
-    watch = watched(lid([1.0] + [0.5] * REMEMBERED))
+    watch = watched(lid([1.0] * FEWEST + [0.5] * REMEMBERED))
     assert watch.ends.full == pytest.approx(0.5)
+
+
+def test_all_blinks_of_a_take_count():
+    """Who grows tired towards the end of an hour blinks less far then, and shut eyes stay shut before."""
+    readings = lid([0.8] * FEWEST + [0.5] * REMEMBERED)
+    found = blinks_of(TakeBlinks().run(take(readings)))
+    np.testing.assert_allclose(found[: 2 * FEWEST * FPS].max(), 1.0)
+    assert found[-4 * FPS :].max() == pytest.approx(Ends(open=OPEN, full=0.8).stretched(0.5))
 
 
 def test_a_lost_face_is_no_lid_and_ends_no_blink():
@@ -215,3 +250,27 @@ def test_samples_without_weights_or_times_pass():
         found = [*stage.feed(samples[0]), *stage.feed(samples[1]), *stage.finish()]
         assert [sample.label for sample in found] == ["0", "1"]
         np.testing.assert_array_equal(found[1].weights, 0.3)
+
+
+def test_a_recording_of_landmarks_is_stretched_by_its_own_blinks(run):
+    """Weights as they leave without the option go through the very stage, and the person is told."""
+    command = ("predict", "landmarks-default", SAMPLES / "talking-face.csv", "--neutral", "1-30")
+    code, plain, _ = run(*command)
+    assert code == 0
+    code, stretched, told = run(*command, "--own-blinks")
+    assert code == 0
+    rows, found = ([line.split(",") for line in text.splitlines()] for text in (plain, stretched))
+    columns = [rows[0].index(name) for name in ("eyeBlinkLeft", "eyeBlinkRight")]
+    read = np.array([[float(row[column]) for column in columns] for row in rows[1:]])
+    said: list[str] = []
+    expected = blinks_of(TakeBlinks(said.append).run(take(read[:, 0], read[:, 1], fps=30)))
+    assert (expected > read + 0.1).any()
+    shown = np.array([[float(row[column]) for column in columns] for row in found[1:]])
+    np.testing.assert_allclose(shown, expected, atol=1e-3)
+    assert said[0] in told
+
+
+def test_lines_that_are_answered_as_they_come_have_no_take_to_go_by(run):
+    code, _, told = run("predict", "landmarks-default", "-", "--own-blinks")
+    assert code == 2
+    assert "--own-blinks needs a whole take" in told

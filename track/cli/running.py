@@ -137,7 +137,7 @@ def open_session(
         ),
         mirror=options.mirror,
         own_blinks=options.own_blinks,
-        keep_blinks=capture.endless,
+        keep_found=capture.endless,
         timed=not wishes.fast,
     )
     closing.callback(session.close)

@@ -21,7 +21,7 @@
     [ranges]                    # what the model reads of the person's own full movement
     jawOpen = 0.71
 
-    [blinks.eyeBlinkLeft]       # what it reads of an eye between blinks, and of the fullest one in passing
+    [blinks.eyeBlinkLeft]       # what it reads of an eye between blinks, and of a full one in passing
     open = 0.1
     full = 0.55
 """

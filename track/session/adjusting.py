@@ -7,10 +7,11 @@ import numpy as np
 from regress.runtime.sample import Sample
 from regress.runtime.stages.own_blinks import Ends, OwnBlinks
 from track.messages import Command, Step
+from track.profile.neutral import NeutralFace
 from track.profile.profile import LARGEST_GAIN, Profile
 from track.session.calibration import Calibration
 from track.session.faces import faces_of
-from track.session.outcomes import learnt, neutral_shown
+from track.session.outcomes import found_alone, learnt, neutral_shown
 from track.session.person import Person, centre_of
 from track.session.pipeline import Pipeline
 from track.session.ranges import blinks_of, ends_of
@@ -40,8 +41,9 @@ class Adjusting:
         Goes before the profile's.
     own_blinks
         Whether blinks are stretched by the person's own ones, where the profile says nothing of them.
-    keep_blinks
-        Whether the profile is given what was found of them. A film's are not kept: it gives the same answers each time.
+    keep_found
+        Whether the profile's file is given what nobody asked for: blinks, and the neutral face that a pipeline finds by
+        itself. A film's are not kept: it gives the same answers each time.
     say
         Told what a person should know, a sentence each.
 
@@ -64,18 +66,21 @@ class Adjusting:
         keep: Callable[[Profile], None],
         mirror: bool | None,
         own_blinks: bool,
-        keep_blinks: bool,
+        keep_found: bool,
         say: Callable[[str], None],
     ) -> None:
         self.profile = profile
         self.step: Step | None = None
         self._blinks = OwnBlinks(say, before=ends_of(profile)) if own_blinks else None
-        self._keeps_blinks = keep_blinks
+        self._keeps_found = keep_found
         self.person = Person(
             profile, mirrored=profile.mirror if mirror is None else mirror, blinks=self._blinks
         )
         self._pipeline, self._say, self._keep = pipeline, say, keep
         self._kept = profile if kept is None else kept
+        self._own_neutral: NeutralFace | None = None
+        self._kept_neutral: NeutralFace | None = None
+        """Of those that a pipeline found by itself, what it uses and what the profile's file has."""
         self.has_kept = False
         """Whether anything that calibration found was kept."""
         self._calibration: Calibration | None = None
@@ -118,7 +123,9 @@ class Adjusting:
             self._looks = []
 
     def watch(self, sample: Sample) -> None:
-        """Take from the pipeline's answer to a frame what was asked for."""
+        """Take from the pipeline's answer to a frame what was asked for, and what it found by itself."""
+        if self._pipeline.own_neutral is not self._own_neutral:
+            self._use_own_neutral()
         if self._calibration is not None:
             self._calibrate(sample)
         if self._looks is not None:
@@ -129,7 +136,7 @@ class Adjusting:
                 self._looks.append(look)
             if self._looks and sample.time_s >= self._looks_since_s + CENTRE_S:
                 self._centre(*(np.array(parts) for parts in zip(*self._looks, strict=True)))
-        if self._keeps_blinks and self._blinks is not None:
+        if self._keeps_found and self._blinks is not None:
             self._keep_blinks(self._blinks.ends)
 
     def _begin(self, faces: str) -> None:
@@ -158,7 +165,7 @@ class Adjusting:
         kept = outcome.ranges is None or self._neutral_is_kept
         neutral = neutral_shown(outcome, self.profile, self._pipeline)
         if neutral is not None:
-            self._pipeline.use_neutral(neutral)
+            self._use_neutral(neutral)
         self._use(learnt(outcome, self.profile, self._pipeline, neutral=neutral))
         if kept:
             self.has_kept = True
@@ -194,8 +201,29 @@ class Adjusting:
 
     def _use_known_neutral(self) -> None:
         """What is known without a calibration that gives a neutral face."""
-        if self.profile.neutral is not None:
-            self._pipeline.use_neutral(self.profile.neutral)
+        if self.profile.neutral is not None and self.profile.neutral is not self._own_neutral:
+            self._use_neutral(self.profile.neutral)
+
+    def _use_neutral(self, neutral: NeutralFace) -> None:
+        self._pipeline.use_neutral(neutral)
+        self._own_neutral = self._pipeline.own_neutral
+
+    def _use_own_neutral(self) -> None:
+        """Go by the neutral face that the pipeline found, or put it away with it; the file's own one is left alone."""
+        first = self._own_neutral is None and self._kept_neutral is None
+        self._own_neutral = self._pipeline.own_neutral
+        changes = found_alone(self._own_neutral, self.profile, self._pipeline, first=first)
+        self._use(changes)
+        if (
+            self._own_neutral is None
+            or not self._keeps_found
+            or self._kept.model not in (None, self._pipeline.mark)
+        ):
+            return
+        if self._kept.neutral is self._kept_neutral:
+            self._kept_neutral = self._own_neutral
+            self._kept = self._kept.model_copy(update=changes)
+            self._keep(self._kept)
 
     @property
     def _neutral_is_kept(self) -> bool:

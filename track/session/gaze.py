@@ -28,7 +28,9 @@ class IrisGaze(Stage):
         points, irises, heads = (neutral.frames(name) for name in ("points", "irises", "heads"))
         if irises is not None and heads is not None:
             poses = poses_of(heads)
-            self._eyes = own_eyes(points, irises, poses, typical_camera(*neutral.picture))
+            camera = typical_camera(*neutral.picture)
+            # as `track.session.faces` asks for; a screen is below, and who looks at it holds the head down
+            self._eyes = own_eyes(points, irises, poses, camera, into_camera=True)
 
     def use_straight_ahead(self, gaze: np.ndarray) -> None:
         """Take what eyes read (4,) where they look straight ahead: those that close go there."""

@@ -73,6 +73,7 @@ class LandmarkPipeline(Pipeline):
         self.mark = ModelMark(kind="landmarks", sha256=_hash_of(model_folder(folder)))
         self._detector, self._detector_name = detector, detector_name
         self._mean_shape = self._model.features.mean_shape
+        self._own_neutral: tuple[np.ndarray, NeutralFace] | None = None
         self._ahead = np.zeros(4)
         networks = _QuickNetworks(self._model)
         self.stages = {"detector": detector, "soundness": Soundness(needs_times=False)}
@@ -135,6 +136,18 @@ class LandmarkPipeline(Pipeline):
         self.stages["head"].use_straight_ahead(self._ahead)
         self.stages.pop("auto", None)
 
+    @property
+    def own_neutral(self) -> NeutralFace | None:
+        """Of points alone: nobody was asked to look into the camera, so it says nothing of the eyes."""
+        auto = self.stages.get("auto")
+        if not isinstance(auto, AutomaticCalibration) or auto.neutral is None:
+            return None
+        if self._own_neutral is None or self._own_neutral[0] is not auto.neutral:
+            chosen = auto.neutral[even_rows(len(auto.neutral), KEPT_FRAMES)]
+            face = NeutralFace(detector=self._detector_name, points=lines_of(chosen, places=2))
+            self._own_neutral = (auto.neutral, face)
+        return self._own_neutral[1]
+
     def use_straight_ahead(self, gaze: np.ndarray) -> None:
         """Let eyes that close go where they look straight ahead, which is taken off behind the pipeline."""
         self._ahead = gaze
@@ -186,7 +199,7 @@ class _Head(Stage):
     def __init__(self, neutral: NeutralFace | None = None) -> None:
         points = None if neutral is None else neutral.frames("points")
         irises = None if neutral is None else neutral.frames("irises")
-        self._fitted = HeadPose(HeadSettings(neutral=points, neutral_irises=irises))
+        self._fitted = HeadPose(HeadSettings(neutral=points, neutral_irises=irises, into_camera=True))
         self._given = IrisGaze(neutral)
 
     def use_straight_ahead(self, gaze: np.ndarray) -> None:

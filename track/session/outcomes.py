@@ -47,6 +47,25 @@ def learnt(
     }
 
 
+def found_alone(
+    neutral: NeutralFace | None, profile: Profile, pipeline: Pipeline, *, first: bool
+) -> Mapping[str, object]:
+    """Fields of ``profile`` that become otherwise with a neutral face that the pipeline found by itself, or put away.
+
+    Parameters
+    ----------
+    first
+        Whether there was none before it: ranges are then of weights that were compared with nothing.
+    """
+    return {
+        "neutral": neutral,
+        "ranges": {} if first else profile.ranges,
+        "rests": {},
+        "blinks": {},
+        "model": pipeline.mark,
+    }
+
+
 def _by_neutral(
     outcome: Outcome, profile: Profile, pipeline: Pipeline, neutral: NeutralFace
 ) -> Mapping[str, object]:

@@ -95,6 +95,11 @@ class Pipeline:
         """
         raise NotImplementedError
 
+    @property
+    def own_neutral(self) -> NeutralFace | None:
+        """The neutral face that it found by itself, another object with each find; None where none is in use."""
+        return None
+
     def read_placement(self, path: Path) -> dict[str, CameraPlacement]:
         """Placements of the cameras out of a file.
 

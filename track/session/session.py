@@ -69,8 +69,8 @@ class Session:
         Goes before the profile's.
     own_blinks
         Whether blinks are stretched by the person's own ones, where the profile says nothing of them.
-    keep_blinks
-        Whether the profile is given what was found of them.
+    keep_found
+        Whether the profile is given what was found of them, and of a neutral face, without being asked for.
     timed
         Whether frames' times are those of now, so that a latency means something.
     """
@@ -87,7 +87,7 @@ class Session:
         new_recording: Callable[[], Sink] | None = None,
         mirror: bool | None = None,
         own_blinks: bool = False,
-        keep_blinks: bool = False,
+        keep_found: bool = False,
         timed: bool = True,
     ) -> None:
         self.pipeline, self.sinks, self._say = pipeline, list(sinks), say
@@ -98,7 +98,7 @@ class Session:
             keep=keep,
             mirror=mirror,
             own_blinks=own_blinks,
-            keep_blinks=keep_blinks,
+            keep_found=keep_found,
             say=say,
         )
         self.measures, self._telling = Measures(), FaultTelling(say)

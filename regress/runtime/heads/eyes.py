@@ -69,19 +69,24 @@ class Eyes:
 MEAN_EYES = Eyes(ball_m=_BALL_M, opening=np.full(len(SIDES), _AT_REST))
 
 
-def own_eyes(faces: np.ndarray, irises: np.ndarray, poses: HeadPoses, camera: FaceCamera) -> Eyes:
-    """A person's eyes, from neutral faces that look straight ahead: medians, so some of them may look elsewhere.
+def own_eyes(
+    faces: np.ndarray, irises: np.ndarray, poses: HeadPoses, camera: FaceCamera, *, into_camera: bool = False
+) -> Eyes:
+    """A person's eyes, from neutral faces that look at one place: medians, so some of them may look elsewhere.
 
     Parameters
     ----------
     faces : (m, 68, 2) float64
     irises : (m, 2, 2) float64
         Centres, the subject's left eye first. Where no face has both, the eyes are the mean person's.
+    into_camera
+        Whether they look into the camera, from a head that may be turned; else straight ahead, where the head turns.
     """
     with np.errstate(all="ignore"):  # rays of irises that are not known
         ball, ray = _seen(faces, _known(irises), poses, camera, MEAN_EYES)
-        depth = (ball[..., 2] + REACH_M)[..., None]
-        beside = ray.start + ray.along * ((depth - ray.start[..., 2:]) / ray.along[..., 2:]) - ball
+        towards = ray.start - ball if into_camera else np.broadcast_to([0.0, 0.0, 1.0], ball.shape)
+        iris = ball + REACH_M * towards / np.linalg.norm(towards, axis=-1, keepdims=True)
+        beside = ray.start + ray.along * ((iris - ray.start)[..., 2:] / ray.along[..., 2:]) - iris
     beside = beside[np.isfinite(beside).all(axis=(1, 2))]
     if not len(beside):
         return MEAN_EYES

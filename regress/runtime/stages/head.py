@@ -31,6 +31,8 @@ class HeadSettings:
         Neutral frames by the same camera and detector.
     neutral_irises : (m, 2, 2) float64, optional
         Of the same frames, looking straight ahead; the subject's left eye first.
+    into_camera
+        Whether they look into the camera instead, wherever the head turns.
     wanted
         Whether samples keep their heads; a gaze needs them in any case.
     """
@@ -38,6 +40,7 @@ class HeadSettings:
     camera: CameraSettings = field(default_factory=CameraSettings)
     neutral: np.ndarray | None = None
     neutral_irises: np.ndarray | None = None
+    into_camera: bool = False
     wanted: bool = True
 
 
@@ -64,7 +67,8 @@ class HeadPose(BatchStage):
             self._shape = own_shape(faces, camera, self._shape)
             if settings.neutral_irises is not None:
                 poses = fit_poses(faces, camera, self._shape)
-                self._eyes = own_eyes(faces, settings.neutral_irises[whole], poses, camera)
+                irises = settings.neutral_irises[whole]
+                self._eyes = own_eyes(faces, irises, poses, camera, into_camera=settings.into_camera)
 
     def use_straight_ahead(self, gaze: np.ndarray) -> None:
         """Take what eyes read (4,) where they look straight ahead: those that close go there."""

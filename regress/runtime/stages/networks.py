@@ -14,16 +14,24 @@ from regress.runtime.stages.frame_clock import FrameClock
 from regress.runtime.stages.neutral import estimate_neutral, frame_rate
 from regress.runtime.stages.stage import BatchStage, Stage
 
+SURE_FROM_S = 10.0
+"""Seconds of a face before which nothing is sure. Those two seconds long look sure of many a wrong face: of a recorded
+range of motion the worst minute had an error of .114 behind them, and .091 behind ten seconds (without: .083)."""
+
+TELL_AT_S = SURE_FROM_S
+"""After which a person is told once that nothing was found so far, and why."""
+
 ESTIMATE_EVERY_S, ESTIMATE_LATER_S = 1.0, 5.0
-"""Between two estimates of the neutral face; the longer from `TELL_AT_S` on, as one of half a minute takes a tenth of a
-second.
-"""
+"""Between two estimates of the neutral face; the longer once a person was told: one of half a minute takes .1 s."""
 
 SURE_TIMES = 2
 """Estimates in a row that must be sure: of people who talk all the time one in ten passes once, in the short run."""
 
-TELL_AT_S = 10.0
-"""After which a person is told once that nothing was found so far, and why."""
+AGAIN_AT_S = (20.0, 30.0, 60.0)
+"""Seconds of a face at which a found one is replaced, if the estimate is sure then: who talked at first rests later."""
+
+FORGOTTEN_S = 2.0
+"""Without a face for this long, all begins anew: somebody else may sit down (as `track.detectors.following` has it)."""
 
 _KEPT_EVERY_S, _REMEMBERED = 0.025, 900
 """Frames are kept no oftener; an estimate looks back on so many, 22 seconds or more, half a minute of most cameras."""
@@ -72,7 +80,9 @@ class LandmarkConfidence(BatchStage):
 
 
 class AutomaticCalibration(Stage):
-    """Looks for the neutral face while frames come, until it is sure; then calibrates the networks for good.
+    """Looks for the neutral face while frames come, and calibrates the networks once it is sure.
+
+    A found face is replaced by those of `AGAIN_AT_S`, and put away where the face was away.
 
     Parameters
     ----------
@@ -80,6 +90,11 @@ class AutomaticCalibration(Stage):
         Serve without a neutral frame until one is found.
     say
         Told when it is sure, and why; and once where it takes long.
+
+    Attributes
+    ----------
+    neutral : (m, 68, 2) float64
+        The calm frames that are in use; None before. Each find is another array.
 
     Raises
     ------
@@ -90,33 +105,57 @@ class AutomaticCalibration(Stage):
     def __init__(self, networks: LandmarkNetworks, say: Callable[[str], None]) -> None:
         if networks.model.calibrated is None:
             raise InputError("the model has no calibrated networks, so a neutral frame is of no use to it")
-        self._networks = networks
+        self._networks, self._plain = networks, networks.model
         self._say = say
-        self._recent: deque[tuple[float, np.ndarray]] = deque(maxlen=_REMEMBERED)
         self._clock = FrameClock()
-        self._seen_s = self._kept_s = self._estimated_s = 0.0
+        self._begin()
+
+    def _begin(self) -> None:
+        self.neutral: np.ndarray | None = None
+        self._recent: deque[tuple[float, np.ndarray]] = deque(maxlen=_REMEMBERED)
+        self._seen_s = self._away_s = self._kept_s = 0.0
+        self._due_s = SURE_FROM_S - (SURE_TIMES - 1) * ESTIMATE_EVERY_S
         self._sure, self._told = 0, False
 
     def step(self, sample: Sample) -> Sample:
-        """Take a frame into account; frames with missing points are left out."""
-        if self._sure < SURE_TIMES and np.isfinite(sample.points).all():
-            self._seen_s += self._clock.step(sample.time_s)
-            if self._seen_s > self._kept_s + _KEPT_EVERY_S - _ROUNDING_S:
-                self._recent.append((np.nan if sample.time_s is None else sample.time_s, sample.points))
-                self._kept_s = self._seen_s
-            every_s = ESTIMATE_LATER_S if self._told else ESTIMATE_EVERY_S
-            if self._seen_s > self._estimated_s + every_s - _ROUNDING_S:
-                self._estimated_s = self._seen_s
-                self._estimate(sample.label)
+        """Take a frame into account; of one with missing points only that no face was there."""
+        lasts_s = self._clock.step(sample.time_s)
+        if not np.isfinite(sample.points).all():
+            self._away_s += lasts_s
+            return sample
+        if self._away_s > FORGOTTEN_S - _ROUNDING_S:
+            self._forget(sample.label)
+        self._away_s = 0.0
+        self._seen_s += lasts_s
+        if self._due_s < np.inf and self._seen_s > self._kept_s + _KEPT_EVERY_S - _ROUNDING_S:
+            self._recent.append((np.nan if sample.time_s is None else sample.time_s, sample.points))
+            self._kept_s = self._seen_s
+        if self._seen_s > self._due_s - _ROUNDING_S:
+            self._estimate(sample.label)
         return sample
+
+    def _forget(self, label: str) -> None:
+        if self.neutral is not None:
+            self._networks.use_model(self._plain)
+            self._say(f"frame {label}: a face is back; its neutral face is looked for anew")
+        self._begin()
 
     def _estimate(self, label: str) -> None:
         times, points = (np.array(each) for each in zip(*self._recent, strict=True))
-        estimate = estimate_neutral(self._networks.model, points, frame_rate(times))
+        estimate = estimate_neutral(self._plain, points, frame_rate(times))
         self._sure = self._sure + 1 if estimate.sure else 0
-        if self._sure == SURE_TIMES:
-            self._networks.use_model(self._networks.model.calibrate(points[estimate.frames]))
-            self._say(f"frame {label}: neutral face found ({estimate.reason}); calibrated from here on")
-        elif self._seen_s > TELL_AT_S - _ROUNDING_S and not self._told:
+        if self._sure >= SURE_TIMES or (self.neutral is not None and estimate.sure):
+            first, self.neutral = self.neutral is None, points[estimate.frames]
+            self._networks.use_model(self._plain.calibrate(self.neutral))
+            if first:
+                self._say(f"frame {label}: neutral face found ({estimate.reason}); calibrated from here on")
+        elif self._seen_s > TELL_AT_S - _ROUNDING_S and self.neutral is None and not self._told:
             self._told = True
             self._say(f"frame {label}: no neutral face found so far ({estimate.reason}); looking on")
+        self._due_s = self._next_s()
+
+    def _next_s(self) -> float:
+        """When the next estimate is due, in seconds of a face; never once all are made."""
+        if self.neutral is not None:
+            return min((at_s for at_s in AGAIN_AT_S if at_s > self._seen_s + _ROUNDING_S), default=np.inf)
+        return self._seen_s + (ESTIMATE_LATER_S if self._told else ESTIMATE_EVERY_S)

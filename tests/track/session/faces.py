@@ -71,10 +71,12 @@ class Kept(Sink):
         return np.array([each.time_s for each in self.samples])
 
 
-def new_session(*, filter_name: str = "groups", said: list[str] | None = None, **wishes: object) -> Session:
+def new_session(
+    *, filter_name: str = "groups", auto: bool = False, said: list[str] | None = None, **wishes: object
+) -> Session:
     """A session of points, with one sink that remembers."""
     pipeline = LandmarkPipeline(
-        "landmarks-default", detector=Given(), detector_name="points", filter_name=filter_name
+        "landmarks-default", detector=Given(), detector_name="points", filter_name=filter_name, auto=auto
     )
     return Session(
         pipeline=pipeline,

@@ -95,12 +95,12 @@ def before_a_camera(profile: Profile = PROFILE, samples: list[Sample] = HALF, **
 
 
 def test_the_next_day_begins_with_them():
-    _, kept = before_a_camera(keep_blinks=True)
+    _, kept = before_a_camera(keep_found=True)
     assert len(kept) == 1, "a file is written when something has changed, and not at each blink"
     assert kept[0].blinks["eyeBlinkLeft"].full == pytest.approx(0.5)
     assert kept[0].model == new_session().pipeline.mark
     assert kept[0].model_copy(update={"blinks": {}, "model": None}) == PROFILE
-    shown_few, again = before_a_camera(kept[0], FEW, keep_blinks=True)
+    shown_few, again = before_a_camera(kept[0], FEW, keep_found=True)
     assert shown_few == pytest.approx(1.0)
     assert again == []
     assert before_a_camera(samples=FEW)[0] == pytest.approx(0.5)
@@ -110,14 +110,14 @@ def test_today_s_go_before_those_of_another_day():
     """A cap pulled lower, another seat: eight blinks of today say more than all of last week's."""
     old = Ends(open=0.1, full=0.9)
     _, kept = before_a_camera(
-        PROFILE.model_copy(update={"blinks": {"eyeBlinkLeft": old, "eyeBlinkRight": old}}), keep_blinks=True
+        PROFILE.model_copy(update={"blinks": {"eyeBlinkLeft": old, "eyeBlinkRight": old}}), keep_found=True
     )
     assert [profile.blinks["eyeBlinkLeft"].full for profile in kept] == [pytest.approx(0.5)]
 
 
 def test_a_film_leaves_the_profile_as_it_is():
     """So its second run gives what its first one gave."""
-    assert before_a_camera(keep_blinks=False)[1] == []
+    assert before_a_camera(keep_found=False)[1] == []
 
 
 @pytest.mark.parametrize(
@@ -129,7 +129,7 @@ def test_a_film_leaves_the_profile_as_it_is():
     ids=["neutral face", "model"],
 )
 def test_a_file_of_something_else_is_left_alone(file: Profile):
-    assert before_a_camera(kept=file, keep_blinks=True)[1] == []
+    assert before_a_camera(kept=file, keep_found=True)[1] == []
 
 
 def test_another_neutral_face_forgets_what_was_known():
