@@ -3,7 +3,7 @@
 from collections.abc import Container
 
 from room.protocol.accounts import Part
-from room.protocol.answers import Answer
+from room.protocol.answers import Answer, Signal
 from room.server.connection import Connection
 
 
@@ -39,11 +39,11 @@ class Connections:
             if id != but:
                 connection.say(answer)
 
-    def send_to(self, id: str, answer: Answer) -> bool:
-        """Say something to one person's page; says whether it is here."""
+    def send_to(self, id: str, signal: Signal) -> bool:
+        """Pass on to one person's page what another browser says; says whether the page is here."""
         connection = self._open["page"].get(id)
         if connection:
-            connection.say(answer)
+            connection.pass_on(signal)
         return connection is not None
 
     def tick(self, content: bytes) -> None:

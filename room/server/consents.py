@@ -30,8 +30,8 @@ class Consents:
         seat.recorded = recorded and self.recording
         self.follow()
 
-    def change(self, seat: Seat, *, recorded: bool) -> None:
-        """Take what somebody who is in says.
+    def change(self, seat: Seat, *, recorded: bool) -> bool:
+        """Take what somebody who is in says; says whether they said otherwise before.
 
         Raises
         ------
@@ -40,8 +40,9 @@ class Consents:
         """
         if not self.recording:
             raise NotAllowed("this room is not recorded")
-        seat.recorded = recorded
+        changes, seat.recorded = seat.recorded != recorded, recorded
         self.follow()
+        return changes
 
     def follow(self) -> None:
         """Let the recording know who is there, as somebody has come or gone."""

@@ -43,8 +43,15 @@ UPLOADS_PER_S = 1 / 30
 UPLOADS_BURST = 4
 """Own avatars of one person, and how many at once: who tries several, or loads the page again."""
 
-MOST_QUEUED = 512
+MOST_QUEUED_BYTES = 4 * 1024**2
 """Texts that wait for a slow connection before it is closed: it has not read for the time of a whole meeting's talk."""
+
+MOST_FROM_ONE_BYTES = 256 * 1024
+"""Of them what one other person's browser says; more of it is dropped. A call has 3 kB, and 24 addresses of 0.3 kB."""
+
+MOST_UNSENT_BYTES = 16 * 1024
+"""Written, and not yet taken by the network: more makes ticks old on the way, where no newer one can replace them. The
+system's own buffer is held as small, which else grows to 4 MB: half a minute of a slow link."""
 
 MOST_TICKS_QUEUED = 32
 """Ticks that wait for a slow connection, a second's; older ones are dropped, as newer ones say more."""

@@ -286,6 +286,22 @@ def test_redis_may_be_killed_and_nobody_is_driven_out():
     asyncio.run(run())
 
 
+def test_a_room_that_is_flooded_pushes_nothing_of_another_out(port):
+    async def run() -> None:
+        async with server(port, new_keys()) as north:
+            heard: list[bytes] = []
+            await north.channels.join("calm", heard.append)
+            north.channels.say("calm", b"a word")
+            for _ in range(3000):
+                north.channels.say("loud", b"noise")
+            async with asyncio.timeout(SOON_S):
+                while not heard:
+                    await asyncio.sleep(0.01)
+            assert heard == [b"a word"]
+
+    asyncio.run(run())
+
+
 def test_a_message_that_is_none_is_let_alone(port):
     async def run() -> None:
         keys = new_keys()
