@@ -8,6 +8,9 @@ MOST_PEOPLE = 64
 MOST_ROOMS = 100
 """Rooms with people in them at one time, unless ``--rooms`` says otherwise."""
 
+MOST_CONNECTIONS = 10_000
+"""Connections of a process, where the system gives it files for so many: the bound on them is raised at the start."""
+
 MOST_PENDING = 256
 """Connections that have not said yet who they are; each ends after five seconds, the oldest gives way to a new one."""
 
