@@ -44,6 +44,19 @@ def _at(*path: object, **values: object):
     return change
 
 
+def _with_zeros(primitive: dict | None = None, *, count: int, type: str = "VEC3", **records: object) -> bytes:
+    """An avatar with an accessor (2) that has no view, whatever may read it."""
+
+    def change(made: dict) -> None:
+        zeros = {"componentType": 5125 if type == "SCALAR" else 5126, "count": count, "type": type}
+        made["accessors"] = [*made["accessors"][:2], zeros]
+        made.update(records)
+        if primitive:
+            made["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, **primitive})
+
+    return avatar(change)
+
+
 def _many_pictures(made: dict) -> None:
     made["images"] *= MOST_PICTURES + 1
 
@@ -118,6 +131,35 @@ REFUSED = {
             )
         ),
         "fewer vertices",
+    ),
+    "indices of points": (
+        _with_zeros({"mode": 0, "indices": 2}, count=2**31, type="SCALAR"),
+        "fewer vertices",
+    ),
+    "indices of lines": (
+        _with_zeros({"mode": 1, "indices": 2}, count=2**28, type="SCALAR"),
+        "fewer vertices",
+    ),
+    "a skin of zeros": (_with_zeros(count=2**28, type="MAT4", skins=[{"inverseBindMatrices": 2}]), "bones"),
+    "a skin again and again": (
+        _with_zeros(count=2**20, type="MAT4", skins=[{"inverseBindMatrices": 2}] * 4),
+        "bones",
+    ),
+    "a movement of zeros": (
+        _with_zeros(count=2**30, animations=[{"samplers": [{"input": 2, "output": 2}]}]),
+        "without animations",
+    ),
+    "a movement of many things": (
+        _with_zeros(
+            count=10**6,
+            animations=[{"samplers": [{"input": 2, "output": 2}], "channels": [{"sampler": 0}] * 10}],
+        ),
+        "without animations",
+    ),
+    "zeros that nothing names": (_with_zeros(count=2**30), "fewer vertices"),
+    "a movement that is not there": (
+        _with_zeros(count=3, animations=[{"channels": [{"sampler": 0}]}]),
+        "names sampler 0",
     ),
     "many nodes": (avatar(_nodes(MOST_NODES)), "nodes"),
     "a node below itself": (avatar(_at("nodes", 1, children=[0])), "hang on themselves"),
