@@ -16,7 +16,7 @@ from room.gltf.document import Accessor, Document, View
 from room.gltf.extensions import READ, check_extensions
 
 MOST_NUMBERS = 60_000_000
-"""In all that a browser makes arrays of, zeros that cost the file nothing among them, and each time that it does: 240 MB.
+"""In all that a browser makes arrays of, zeros that cost the file nothing among them, and as often as it does: 240 MB.
 Our avatars have 2,400,000, nearly all for 52 shapes; VRMs draw ten parts from the same shapes."""
 
 MOST_PICTURES = 64
