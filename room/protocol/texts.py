@@ -67,6 +67,8 @@ EngineLine = Literal["up", "down"]
 Avatar = Annotated[str, StringConstraints(pattern=r"^[a-z0-9_-]{1,32}$")]
 Visit = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{0,22}$")]
 """Made anew whenever a page is loaded: the same one after a break means that voices go on."""
+RecordingId = Annotated[str, StringConstraints(pattern=r"^([0-9a-f]{16})?$")]
+"""Of one recording, made anew with its file; empty where there is none. A yes to one is none to the next."""
 RoomName = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][a-z0-9-]{0,39}$")]
 
 
@@ -77,7 +79,7 @@ class Text(BaseModel):
 
 
 class Join(Text):
-    """The first text of a connection; ``recorded`` says that this person agrees to be recorded, if the room is.
+    """The first text of a connection; ``recorded`` says that this person agrees to be recorded, by ``recording`` alone.
 
     ``at_ms`` is the time of this coming by the person's own clock: of two servers that do not know of each other's yet,
     the later one has them.
@@ -92,6 +94,7 @@ class Join(Text):
     visit: Visit = ""
     role: Literal["page", "face"] = "page"
     recorded: bool = False
+    recording: RecordingId = ""
     at_ms: Annotated[int, Field(ge=0, le=2**52)] = 0
 
 

@@ -21,13 +21,13 @@ class Consents:
         self._meeting, self._recorder = meeting, recorder
 
     @property
-    def recording(self) -> bool:
-        """Whether the room is recorded now."""
-        return self._recorder is not None
+    def recording(self) -> str:
+        """Id of the recording that is made now; empty where there is none."""
+        return self._recorder.id if self._recorder else ""
 
-    def enter(self, seat: Seat, *, recorded: bool) -> None:
-        """Take what somebody who comes in said."""
-        seat.recorded = recorded and self.recording
+    def enter(self, seat: Seat, *, recorded: bool, recording: str) -> None:
+        """Take what somebody who comes in said of a recording: of another one it means nothing."""
+        seat.recorded = recorded and recording == self.recording != ""
         self.follow()
 
     def change(self, seat: Seat, *, recorded: bool) -> bool:

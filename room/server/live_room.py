@@ -138,7 +138,7 @@ class LiveRoom:
         if page and not self.avatars.has(seat):
             seat.own = ""  # it stayed with the process that they came by before; their page brings it again
         if page:  # a program that moves a face has no say in this
-            self._consents.enter(seat, recorded=join.recorded)
+            self._consents.enter(seat, recorded=join.recorded, recording=join.recording)
         connection.say(
             Welcome(
                 room=self.name,
