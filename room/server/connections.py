@@ -55,10 +55,10 @@ class Connections:
         """Close the page of somebody who is at another process now; their program may move them from here."""
         self._refuse(id, "page", text, again=again)
 
-    def part(self, id: str, text: str) -> None:
-        """Close all connections of somebody who leaves for good."""
+    def part(self, id: str, text: str, *, again: bool) -> None:
+        """Close all connections of somebody whose place is free; ``again`` where they may come back to it."""
         for part in self._open:
-            self._refuse(id, part, text, again=False)
+            self._refuse(id, part, text, again=again)
 
     def follow(self, there: Container[str]) -> None:
         """Let go of programs whose person has left by another process; ``there`` has the ids of all who are in."""

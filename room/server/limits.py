@@ -39,8 +39,11 @@ RETURNS_PER_S = 1
 PLAYS_PER_S = 5
 """What those who look at a replay ask of it, with a burst of ten: a jump reads two seconds of the recording."""
 
-MOST_UPLOADS = 4
+MOST_UPLOADS = 8
 """Own avatars that come in at one time: each is held whole in memory until it was checked."""
+
+MOST_UPLOADS_A_ROOM = 4
+"""Of them of one room, so that its people, who may be slow on purpose, keep no other room from theirs."""
 
 UPLOADS_PER_S = 1 / 30
 UPLOADS_BURST = 4

@@ -71,7 +71,7 @@ class RedisChannels:
         self._waiting: dict[str, deque[bytes]] = {}
         self._wake = asyncio.Event()
         self._subscription: PubSub | None = None
-        self._told_gone = False
+        self._told_gone = ""
         self._tried = asyncio.Event()
 
     @asynccontextmanager
@@ -176,10 +176,11 @@ class RedisChannels:
                             self._hear(message)
                     finally:
                         beating.cancel()
-            except (RedisError, OSError):
-                pass
+                reason = "it is silent"
+            except (RedisError, OSError) as error:
+                reason = str(error) or type(error).__name__
             self._subscription, self.connected = None, False
-            self._tell_gone()
+            self._tell_gone(reason)
             await asyncio.sleep(WAITS_S[min(tries, len(WAITS_S) - 1)])
             tries += 1
 
@@ -200,16 +201,18 @@ class RedisChannels:
         elif message["type"] == "message" and channel in self._heard:
             self._heard[channel](message["data"])
 
-    def _tell_gone(self) -> None:
+    def _tell_gone(self, reason: str) -> None:
         self._tried.set()
-        if not self._told_gone:
-            self._told_gone = True
+        if (
+            reason != self._told_gone
+        ):  # one that has a wrong password is never back by itself: it must be read
+            self._told_gone = reason
             self._said(
-                "redis is away: open rooms go on in each server by itself, others open when it is back"
+                f"redis is away ({reason}): open rooms go on in each server by itself, others open when it is back"
             )
 
     def _tell_back(self) -> None:
         self._tried.set()
         if self._told_gone:
-            self._told_gone = False
+            self._told_gone = ""
             self._said("redis is back: rooms are whole again")

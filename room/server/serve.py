@@ -1,6 +1,7 @@
 """Runs a server of rooms until it is stopped."""
 
 import asyncio
+import logging
 import platform
 import signal
 import ssl
@@ -10,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from aiohttp import web
+from aiohttp.http_exceptions import HttpProcessingError
 
 from room.errors import InputError
 from room.server.application import Rooms
@@ -81,7 +83,11 @@ async def _serve(
     application = rooms.application()
     sockets = await bind(address.host, address.port)
     runner = web.AppRunner(
-        application, access_log=None, shutdown_timeout=SHUTDOWN_S, keepalive_timeout=KEEPALIVE_S
+        application,
+        access_log=None,
+        logger=_log(),
+        shutdown_timeout=SHUTDOWN_S,
+        keepalive_timeout=KEEPALIVE_S,
     )
     listener = Listener(lambda: _protocol(runner), tls=tls, most=allow_files())
     application.middlewares.append(listener.hear)
@@ -95,6 +101,15 @@ async def _serve(
         for each in sockets:
             each.close()
         await runner.cleanup()
+
+
+def _log() -> logging.Logger:
+    """Where faults of this program go: what scanners send that is no HTTP is none, and holds their addresses."""
+    log = logging.getLogger("room.server")
+    log.addFilter(
+        lambda record: not (record.exc_info and isinstance(record.exc_info[1], HttpProcessingError))
+    )
+    return log
 
 
 def _protocol(runner: web.AppRunner) -> asyncio.Protocol:

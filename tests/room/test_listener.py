@@ -123,6 +123,11 @@ def test_a_process_with_few_files_answers_past_many_silent_connections_and_write
         port = int(address.rpartition(":")[2])
         for _ in range(300):
             stack.enter_context(socket.create_connection(("127.0.0.1", port)))
+        for scanned in (b"\x16\x03\x01\x02\0\r\n\r\n", b"GET / HTTP/9\r\n\r\n", b"SSH-2.0\r\n\r\n"):
+            with socket.create_connection(("127.0.0.1", port)) as scanner:
+                scanner.sendall(scanned)
+                scanner.recv(1000)
         with urllib.request.urlopen(f"{address}/health", timeout=SOON_S) as answer:
             assert answer.read() == b"well\n"
     assert log.stat().st_size < 2000
+    assert "Traceback" not in log.read_text()

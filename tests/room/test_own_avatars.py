@@ -24,7 +24,7 @@ from room.gltf.check import MOST_NUMBERS, MOST_PICTURES, MOST_SIDE_PIXELS, MOST_
 from room.gltf.extensions import HOW
 from room.protocol.answers import Changed, Left, Notice
 from room.server.application import STATIC
-from room.server.limits import MOST_UPLOADS, UPLOADS_BURST
+from room.server.limits import MOST_UPLOADS_A_ROOM, UPLOADS_BURST
 from tests.room.avatars import BINARY, POINTS, avatar, png, textured
 from tests.room.guests import Guest, Place, open_room
 
@@ -368,12 +368,39 @@ def test_one_who_sends_slowly_keeps_nobody_else_from_it():
         first = asyncio.create_task(bring(place, ada, slow()))
         await begun.wait()
         await asyncio.sleep(0.1)  # it is on its way before the next one asks
-        for _ in range(MOST_UPLOADS - 1):
+        for _ in range(MOST_UPLOADS_A_ROOM - 1):
             status, sentence = await bring(place, ada, slow())
             assert (status, "another avatar of yours" in sentence) == (429, True)
         assert (await bring(place, ben, avatar()))[0] == 200
         rest.set()
         assert (await first)[0] == 422
+
+    meet(run)
+
+
+def test_a_room_whose_people_all_send_slowly_keeps_no_other_room_from_it():
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        rest = asyncio.Event()
+
+        async def slow(begun: asyncio.Event):
+            yield b"x"
+            begun.set()
+            await rest.wait()
+
+        sending = []
+        for _ in range(MOST_UPLOADS_A_ROOM):
+            begun = asyncio.Event()
+            sending.append(asyncio.create_task(bring(place, await place.guest(), slow(begun))))
+            await begun.wait()
+        await asyncio.sleep(0.1)  # they are on their way before the next one asks
+        assert (await bring(place, ada, avatar()))[0] == 503
+        other = Place(place.address, place.keys, "other")
+        try:
+            assert (await bring(other, await other.guest(), avatar()))[0] == 200
+        finally:
+            await other.session.close()
+        rest.set()
+        assert {status for status, _ in await asyncio.gather(*sending)} == {422}
 
     meet(run)
 
