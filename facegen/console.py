@@ -21,12 +21,14 @@ ProgressCall = Callable[[str, int, int], None]
 
 
 def say(message: str) -> None:
-    """Write one line to standard error; a listener who has gone stops no work."""
+    """Write one line to standard error; a listener who has gone stops no work, nor does a full disk under a log."""
     try:
         sys.stderr.write(f"{one_line(message)}\n")
         sys.stderr.flush()
     except BrokenPipeError:
         redirect_to_devnull(sys.stderr)
+    except OSError:  # what waits goes with a later line, once there is space again
+        return
 
 
 def counted(count: int, one: str, many: str = "") -> str:

@@ -1,5 +1,6 @@
 """Defines ``room serve``."""
 
+import itertools
 import os
 from contextlib import ExitStack
 from pathlib import Path
@@ -64,7 +65,7 @@ def serve(
     record: Annotated[
         Path | None,
         typer.Option(
-            help="New .jsonl for the states of those who agree: no voice, no pictures. For the one room of --room."
+            help="A .jsonl for the states of those who agree: no voice, no pictures. A taken name gets a number."
         ),
     ] = None,
 ) -> None:
@@ -72,6 +73,7 @@ def serve(
 
     Example: room serve --host 0.0.0.0 --cert cert.pem --key key.pem --keys room.keys
     """
+    from facegen.errors import OutputError
     from room.errors import InputError
     from room.recording import Recorder
     from room.server import Address, Limits, Relays, Rooms, keep_keys, new_keys, read_keys
@@ -87,7 +89,7 @@ def serve(
     known = keys is not None and keys.exists()
     held = read_keys(keys) if keys and known else new_keys()
     channels = _channels(redis, held, shared=keys is not None, recorded=record is not None)
-    _check_record(record, names)
+    record = record and _free_place(record, names)
     origins = [parse_origin(text) for text in origin or ()]
     relays = Relays(stun=tuple(stun or ()), turn=tuple(turn or ()), secret=secret)
     limits = Limits(people=people, rooms=rooms)
@@ -103,13 +105,19 @@ def serve(
     address = Address(host=host, port=port, certificate=cert, private_key=key)
 
     def started(where: str) -> None:
-        # a command that was refused has written nothing: a recording's place is tried before keys are kept
-        if record:
-            recorder = Recorder(record, room=names[0], hertz=HERTZ, ended=lambda text: say(f"room: {text}"))
-            ending.callback(recorder.close)
-            opened.record(recorder)
         if keys and not known:
             keep_keys(held, keys)
+        if record:
+            try:
+                recorder = Recorder(
+                    record, room=names[0], hertz=HERTZ, ended=lambda text: say(f"room: {text}")
+                )
+            except (InputError, OutputError):  # a command that was refused has written nothing
+                if keys and not known:
+                    keys.unlink()
+                raise
+            ending.callback(recorder.close)
+            opened.record(recorder)
         print_links(held, names, origins[0] if origins else where)
         if not cert and host not in ("127.0.0.1", "::1", "localhost"):
             say(
@@ -122,18 +130,20 @@ def serve(
     say("room: stopped; " + ("its links open again with the same --keys" if keys else "its links have ended"))
 
 
-def _check_record(record: Path | None, names: list[str]) -> None:
+def _free_place(record: Path, names: list[str]) -> Path:
+    """The file of a recording: with a number where the name is taken, as when a server is started again."""
     from room.errors import InputError
-    from room.recording.writer import taken
 
-    if record is None:
-        return
     if record.suffix.lower() != ".jsonl":
         raise InputError(f"--record is {record}; a recording ends with .jsonl: name such a file")
     if len(names) != 1:
         raise InputError(f"--record takes one room, and --room names {len(names)}; start a server for each")
-    if os.path.lexists(record):  # before the keys are kept; it is made with the first link
-        raise taken(record)
+    if not os.path.lexists(record):
+        return record
+    numbered = (record.with_stem(f"{record.stem}-{number}") for number in itertools.count(2))
+    free = next(path for path in numbered if not os.path.lexists(path))
+    say(f"room: {record} is there already, and stays as it is; this recording goes to {free}")
+    return free
 
 
 def _channels(url: str | None, keys: "Keys", *, shared: bool, recorded: bool) -> "RedisChannels | None":

@@ -16,8 +16,8 @@ from room.gltf.document import Accessor, Document, View
 from room.gltf.extensions import READ, check_extensions
 
 MOST_NUMBERS = 60_000_000
-"""In all that is drawn, zeros that cost the file nothing among them, and each time that it is drawn from: 240 MB on a
-graphics card. Our avatars have 2,400,000, nearly all for 52 shapes; VRMs draw ten parts from the same shapes."""
+"""In all that a browser makes arrays of, zeros that cost the file nothing among them, and as often as it does: 240 MB.
+Our avatars have 2,400,000, nearly all for 52 shapes; VRMs draw ten parts from the same shapes."""
 
 MOST_PICTURES = 64
 """Textures of one file; VRMs have up to twenty."""
@@ -86,6 +86,7 @@ def check_gltf(document: dict[str, Any], chunks: Chunks, *, where: str, bounds: 
         _check_views(told, len(binary))
         _check_accessors(told)
         _check_meshes(told, _drawn(told, bounds.nodes), bounds)
+        _check_numbers(told)
         _check_pictures(told, binary)
     except FormatError as error:
         raise FormatError(f"{where} {error}") from None
@@ -178,15 +179,9 @@ def _drawn(told: Document, most_nodes: int) -> Counter[int]:
 
 
 def _check_meshes(told: Document, drawn: Counter[int], bounds: Bounds) -> None:
-    triangles = primitives = numbers = 0
+    triangles = primitives = 0
     for number, times in drawn.items():
         for primitive in _of(told.meshes, number, "mesh").primitives:
-            for index in (
-                *primitive.attributes.values(),
-                *chain.from_iterable(target.values() for target in primitive.targets),
-            ):
-                accessor = _of(told.accessors, index, "accessor")
-                numbers += accessor.count * _COMPONENTS[accessor.type]
             vertices = (
                 primitive.attributes.get("POSITION") if primitive.indices is None else primitive.indices
             )
@@ -197,11 +192,6 @@ def _check_meshes(told: Document, drawn: Counter[int], bounds: Bounds) -> None:
             )
     if not triangles:
         raise FormatError("holds nothing to look at: no mesh of triangles is in it")
-    if numbers > MOST_NUMBERS:
-        raise FormatError(
-            f"has {numbers:,} numbers in its meshes and shapes, and at most {MOST_NUMBERS:,} are loaded; "
-            "export it with fewer vertices or shapes"
-        )
     if triangles > bounds.triangles:
         raise FormatError(
             f"has {triangles:,} triangles, and at most {bounds.triangles:,} are loaded; decimate it"
@@ -210,6 +200,39 @@ def _check_meshes(told: Document, drawn: Counter[int], bounds: Bounds) -> None:
         raise FormatError(
             f"is drawn in {primitives:,} parts, and at most {bounds.parts:,} are; join meshes of one material"
         )
+
+
+def _check_numbers(told: Document) -> None:
+    """Refuse more numbers than browsers should be asked for, also where nothing is ever seen of them."""
+    numbers = max(
+        sum(_numbers(accessor) for accessor in told.accessors),
+        sum(_numbers(_of(told.accessors, index, "accessor")) for index in _read(told)),
+    )
+    if numbers > MOST_NUMBERS:
+        raise FormatError(
+            f"has {numbers:,} numbers in its meshes, shapes, bones and movements, and at most {MOST_NUMBERS:,} are "
+            "loaded; export it with fewer vertices or shapes, and without animations"
+        )
+
+
+def _numbers(accessor: Accessor) -> int:
+    return accessor.count * _COMPONENTS[accessor.type]
+
+
+def _read(told: Document) -> Iterator[int]:
+    """The accessors that a reader makes arrays of, each as often as it is told to."""
+    for primitive in chain.from_iterable(mesh.primitives for mesh in told.meshes):
+        yield from primitive.attributes.values()
+        yield from chain.from_iterable(target.values() for target in primitive.targets)
+        if primitive.indices is not None:
+            yield primitive.indices
+    for skin in told.skins:
+        if skin.inverseBindMatrices is not None:
+            yield skin.inverseBindMatrices
+    for animation in told.animations:
+        moved = (_of(animation.samplers, channel.sampler, "sampler") for channel in animation.channels)
+        for sampler in chain(animation.samplers, moved):
+            yield from (sampler.input, sampler.output)
 
 
 def _check_pictures(told: Document, binary: bytes) -> None:

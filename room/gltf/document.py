@@ -87,6 +87,32 @@ class Node(_Record):
     children: list[Index] = []
 
 
+class Skin(_Record):
+    """Bones that bend a mesh, and where they were when it was made."""
+
+    inverseBindMatrices: Index | None = None
+
+
+class Sampler(_Record):
+    """A movement: when, and what then."""
+
+    input: Index
+    output: Index
+
+
+class Channel(_Record):
+    """What a movement moves."""
+
+    sampler: Index
+
+
+class Animation(_Record):
+    """Movements that are played together."""
+
+    samplers: list[Sampler] = []
+    channels: list[Channel] = []
+
+
 class Image(_Record):
     """A picture in a view."""
 
@@ -102,5 +128,7 @@ class Document(_Record):
     meshes: list[Mesh] = []
     nodes: list[Node] = []
     images: list[Image] = []
+    skins: list[Skin] = []
+    animations: list[Animation] = []
     extensionsUsed: list[str] = []
     extensionsRequired: list[str] = []

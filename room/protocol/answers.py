@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import StringConstraints
 
-from room.protocol.texts import Candidate, Description, EngineLine, Number, Text
+from room.protocol.texts import Candidate, Description, EngineLine, Number, RecordingId, Text
 
 
 class Person(Text):
@@ -44,7 +44,10 @@ class IceServer(Text):
 
 
 class Welcome(Text):
-    """The first answer: who one is, who is there, and what the room allows; ``engine`` where voices go by one."""
+    """The first answer: who one is, who is there, and what the room allows; ``engine`` where voices go by one.
+
+    ``recording`` is the id of what records the room; empty where nothing does.
+    """
 
     kind: Literal["welcome"] = "welcome"
     version: Literal[1] = 1
@@ -55,7 +58,7 @@ class Welcome(Text):
     locked: bool
     hertz: int
     shapes: tuple[str, ...]
-    recording: bool
+    recording: RecordingId
     replay: bool
     engine: bool
     people: tuple[Person, ...]
@@ -63,9 +66,9 @@ class Welcome(Text):
 
 
 class About(Text):
-    """What a page may know before it comes in: whether the room is recorded or plays a recording, and how voices go."""
+    """What a page may know before it comes in: what records the room, whether it plays a file, and how voices go."""
 
-    recording: bool
+    recording: RecordingId
     replay: bool
     engine: bool
 

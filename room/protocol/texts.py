@@ -11,6 +11,7 @@ What is behind the ``#`` is never part of a request: it comes in `Join` alone.
 """
 
 import re
+import unicodedata
 from typing import Annotated, Literal
 
 from pydantic import (
@@ -37,14 +38,25 @@ MOST_NAME_CHARACTERS = 40
 """Of a person's name, as it stands above a head."""
 
 _BREAKS = r"\x00-\x1f\x7f-\x9f\u2028\u2029"
-_UNSEEN = r"\u061c\u200b\u200e\u200f\u202a-\u202e\u2060\u2066-\u2069\ufeff"
-"""What turns the direction of writing, or has no width, so that two names look the same (emoji need one more such,
-U+200D, which may stay)."""
+_UNSEEN = (
+    r"\u00ad\u034f\u061c\u115f\u1160\u17b4\u17b5\u180b-\u180f\u200b\u200e\u200f\u202a-\u202e\u2060-\u206f\u2800\u3164"
+    r"\ufe00-\ufe0e\ufeff\uffa0\ufff0-\ufffb\U000e0000-\U000e0fff"
+)
+"""What turns the direction of writing, or has no width or no ink, so that two names look the same."""
+
+_JOINED = r"[\u0600-\u1fff\u2070-\ufdff\ufe10-\U0010ffff]"
+_LOOSE = re.compile(
+    f"(?<!{_JOINED})[\u200c\u200d]|[\u200c\u200d](?!{_JOINED})|(?<![\u00a9\u00ae\u2000-\U0010ffff])\ufe0f(?!\u20e3)"
+)
+"""Signs that join or part letters of Persian and India, and make emoji: elsewhere nobody sees them."""
 
 
 def _line(text: str) -> str:
     """What is seen of a text in one line: people paste what they cannot see, and that must cost them nothing."""
-    return re.sub(f"[{_UNSEEN}]", "", re.sub(f"[{_BREAKS}]+", " ", text)).strip()
+    seen = re.sub(f"[{_UNSEEN}]", "", re.sub(f"[{_BREAKS}]+", " ", text))
+    while (clean := _LOOSE.sub("", seen)) != seen:  # one may have stood beside another
+        seen = clean
+    return seen.strip() if any(unicodedata.category(each)[0] in "LNPS" for each in seen) else ""
 
 
 Name = Annotated[
@@ -67,6 +79,8 @@ EngineLine = Literal["up", "down"]
 Avatar = Annotated[str, StringConstraints(pattern=r"^[a-z0-9_-]{1,32}$")]
 Visit = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_-]{0,22}$")]
 """Made anew whenever a page is loaded: the same one after a break means that voices go on."""
+RecordingId = Annotated[str, StringConstraints(pattern=r"^([0-9a-f]{16})?$")]
+"""Of one recording, made anew with its file; empty where there is none. A yes to one is none to the next."""
 RoomName = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][a-z0-9-]{0,39}$")]
 
 
@@ -77,7 +91,7 @@ class Text(BaseModel):
 
 
 class Join(Text):
-    """The first text of a connection; ``recorded`` says that this person agrees to be recorded, if the room is.
+    """The first text of a connection; ``recorded`` says that this person agrees to be recorded, by ``recording`` alone.
 
     ``at_ms`` is the time of this coming by the person's own clock: of two servers that do not know of each other's yet,
     the later one has them.
@@ -92,6 +106,7 @@ class Join(Text):
     visit: Visit = ""
     role: Literal["page", "face"] = "page"
     recorded: bool = False
+    recording: RecordingId = ""
     at_ms: Annotated[int, Field(ge=0, le=2**52)] = 0
 
 

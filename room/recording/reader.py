@@ -30,6 +30,9 @@ _EVENT: TypeAdapter[Event] = TypeAdapter(Annotated[Event, Field(discriminator="k
 MARKS_MS = 1000
 """Between two places from which a recording can be followed: 36,000 in ten hours."""
 
+MOST_MARKED = 100_000
+"""Such places, and names of those who are there as it changes between them; with more the places lie further apart."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Mark:
@@ -138,16 +141,12 @@ def check_recording(path: Path) -> Survey:
     lines = _read(path)
     _, _, heading = next(lines)
     assert isinstance(heading, Heading)
-    marks: list[Mark] = []
+    marks = _Marks()
     cast: dict[int, Came] = {}
     ticks = ends = 0
     for offset, number, line in lines:
         assert not isinstance(line, Heading)
-        if not marks or line.time_ms >= marks[-1].time_ms + MARKS_MS:
-            # marks share what did not change between them
-            same = marks and marks[-1].cast == cast
-            known = marks[-1].cast if same else dict(cast)
-            marks.append(Mark(time_ms=line.time_ms, offset=offset, line=number, cast=known))
+        marks.pass_by(offset, number, line.time_ms, cast)
         match line:
             case Came():
                 cast[line.number] = line
@@ -158,7 +157,36 @@ def check_recording(path: Path) -> Survey:
                 ends = line.time_ms
     if not ticks:
         raise FormatError(f"{path}: nobody moves in it; nobody agreed to be recorded")
-    return Survey(path=path, heading=heading, begins_ms=marks[0].time_ms, ends_ms=ends, marks=tuple(marks))
+    return Survey(
+        path=path, heading=heading, begins_ms=marks.marks[0].time_ms, ends_ms=ends, marks=tuple(marks.marks)
+    )
+
+
+class _Marks:
+    """Takes marks while a recording is read, and no more than memory should hold of anybody's file."""
+
+    def __init__(self) -> None:
+        self.marks: list[Mark] = []
+        self._every_ms, self._size = MARKS_MS, 0
+
+    def pass_by(self, offset: int, line: int, time_ms: int, cast: dict[int, Came]) -> None:
+        """Come to a line; ``cast`` is who is there before it."""
+        if self.marks and time_ms < self.marks[-1].time_ms + self._every_ms:
+            return
+        # marks share what did not change between them
+        same = bool(self.marks) and self.marks[-1].cast == cast
+        known = self.marks[-1].cast if same else dict(cast)
+        self.marks.append(Mark(time_ms=time_ms, offset=offset, line=line, cast=known))
+        self._size += 1 if same else 1 + len(cast)
+        while self._size > MOST_MARKED and len(self.marks) > 1:
+            self._thin()
+
+    def _thin(self) -> None:
+        """Leave every other mark out, and go on as seldom."""
+        self.marks = self.marks[::2]
+        self._every_ms *= 2
+        casts = {id(mark.cast): len(mark.cast) for mark in self.marks}
+        self._size = len(self.marks) + sum(casts.values())
 
 
 def _follow(people: set[int], event: Event, where: str) -> None:

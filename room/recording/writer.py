@@ -5,6 +5,7 @@ A thread of its own writes: a disk that stalls would else hold up everybody's ti
 
 import os
 import queue
+import secrets
 import threading
 import time
 from collections.abc import Callable, Iterable
@@ -40,6 +41,11 @@ class Recorder:
     most_bytes
         Of the file.
 
+    Attributes
+    ----------
+    id
+        Of this recording: who agreed to be in another one has not agreed to this.
+
     Raises
     ------
     InputError
@@ -57,7 +63,7 @@ class Recorder:
         ended: Callable[[str], None],
         most_bytes: int = MOST_RECORDING_BYTES,
     ) -> None:
-        self.path, self.room = path, room
+        self.path, self.room, self.id = path, room, secrets.token_hex(8)
         self._ended, self._most_bytes = ended, most_bytes
         self._known: dict[int, Came] = {}
         self._began = time.monotonic()

@@ -149,8 +149,9 @@ class Rooms:
 
     async def _about(self, request: web.Request) -> web.Response:
         """What the page asks its person about before it comes in; needs no key, and says nothing of people."""
+        recorder = self._live_rooms.recorder_of(request.match_info["name"])
         about = About(
-            recording=self._live_rooms.recorder_of(request.match_info["name"]) is not None,
+            recording=recorder.id if recorder else "",
             replay=self._replayed is not None,
             engine=bool(self._engines),
         )

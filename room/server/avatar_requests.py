@@ -15,7 +15,7 @@ from room.avatars.check import MOST_AVATAR_BYTES
 from room.errors import FormatError, NotAllowed
 from room.server.headers import same_origin
 from room.server.keys import Keys
-from room.server.limits import MOST_UPLOADS, UPLOADS_BURST, UPLOADS_PER_S, Bucket
+from room.server.limits import MOST_UPLOADS, MOST_UPLOADS_A_ROOM, UPLOADS_BURST, UPLOADS_PER_S, Bucket
 from room.server.live_room import LiveRoom
 from room.state import Seat, identity
 
@@ -67,7 +67,8 @@ class AvatarRequests:
             raise web.HTTPTooManyRequests(
                 text="another avatar of yours is on its way; wait until it is there\n"
             )
-        if len(self._uploading) >= MOST_UPLOADS:
+        here = sum(name == room.name for name, _ in self._uploading)
+        if here >= MOST_UPLOADS_A_ROOM or len(self._uploading) >= MOST_UPLOADS:
             raise web.HTTPServiceUnavailable(text="many bring avatars at once; try again in a minute\n")
         self._uploading.add(wearer)
         try:

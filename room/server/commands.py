@@ -73,25 +73,30 @@ class RoomCommands:
             case Chat():
                 self._write(seat, said.text)
             case Voice():
-                seat.voice = said.open
-                self._broadcast(Changed(person=seat.person))
+                changes, seat.voice = seat.voice != said.open, said.open
+                self._tell(seat, changes)
             case Description() | Candidate():
                 self._calls.pass_on(seat, said)
             case Moderate():
                 self._moderate(seat, said)
             case Consent():
-                self._consents.change(seat, recorded=said.recorded)
-                self._broadcast(Changed(person=seat.person))
+                self._tell(seat, self._consents.change(seat, recorded=said.recorded))
             case Play():
                 self._play(said)
             case Undress():
+                changes = bool(seat.own)
                 self._avatars.take_off(seat)
-                self._broadcast(Changed(person=seat.person))
+                self._tell(seat, changes)
             case Share():
                 for changed in self._meeting.share(seat, on=said.on):
                     self._broadcast(Changed(person=changed.person))
             case Leave():
                 self._free(seat, "you have left")
+
+    def _tell(self, seat: Seat, changes: bool) -> None:
+        """Tell all of somebody who is otherwise now: what changes nothing is told to nobody."""
+        if changes:
+            self._broadcast(Changed(person=seat.person))
 
     def _play(self, said: Play) -> None:
         if self._replay is None:

@@ -3,7 +3,7 @@
 from collections.abc import Container
 
 from room.protocol.accounts import Part
-from room.protocol.answers import Answer
+from room.protocol.answers import Answer, Signal
 from room.server.connection import Connection
 
 
@@ -39,11 +39,11 @@ class Connections:
             if id != but:
                 connection.say(answer)
 
-    def send_to(self, id: str, answer: Answer) -> bool:
-        """Say something to one person's page; says whether it is here."""
+    def send_to(self, id: str, signal: Signal) -> bool:
+        """Pass on to one person's page what another browser says; says whether the page is here."""
         connection = self._open["page"].get(id)
         if connection:
-            connection.say(answer)
+            connection.pass_on(signal)
         return connection is not None
 
     def tick(self, content: bytes) -> None:
@@ -55,10 +55,10 @@ class Connections:
         """Close the page of somebody who is at another process now; their program may move them from here."""
         self._refuse(id, "page", text, again=again)
 
-    def part(self, id: str, text: str) -> None:
-        """Close all connections of somebody who leaves for good."""
+    def part(self, id: str, text: str, *, again: bool) -> None:
+        """Close all connections of somebody whose place is free; ``again`` where they may come back to it."""
         for part in self._open:
-            self._refuse(id, part, text, again=False)
+            self._refuse(id, part, text, again=again)
 
     def follow(self, there: Container[str]) -> None:
         """Let go of programs whose person has left by another process; ``there`` has the ids of all who are in."""

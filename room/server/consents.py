@@ -21,17 +21,17 @@ class Consents:
         self._meeting, self._recorder = meeting, recorder
 
     @property
-    def recording(self) -> bool:
-        """Whether the room is recorded now."""
-        return self._recorder is not None
+    def recording(self) -> str:
+        """Id of the recording that is made now; empty where there is none."""
+        return self._recorder.id if self._recorder else ""
 
-    def enter(self, seat: Seat, *, recorded: bool) -> None:
-        """Take what somebody who comes in said."""
-        seat.recorded = recorded and self.recording
+    def enter(self, seat: Seat, *, recorded: bool, recording: str) -> None:
+        """Take what somebody who comes in said of a recording: of another one it means nothing."""
+        seat.recorded = recorded and recording == self.recording != ""
         self.follow()
 
-    def change(self, seat: Seat, *, recorded: bool) -> None:
-        """Take what somebody who is in says.
+    def change(self, seat: Seat, *, recorded: bool) -> bool:
+        """Take what somebody who is in says; says whether they said otherwise before.
 
         Raises
         ------
@@ -40,8 +40,9 @@ class Consents:
         """
         if not self.recording:
             raise NotAllowed("this room is not recorded")
-        seat.recorded = recorded
+        changes, seat.recorded = seat.recorded != recorded, recorded
         self.follow()
+        return changes
 
     def follow(self) -> None:
         """Let the recording know who is there, as somebody has come or gone."""

@@ -8,6 +8,9 @@ MOST_PEOPLE = 64
 MOST_ROOMS = 100
 """Rooms with people in them at one time, unless ``--rooms`` says otherwise."""
 
+MOST_CONNECTIONS = 10_000
+"""Connections of a process, where the system gives it files for so many: the bound on them is raised at the start."""
+
 MOST_PENDING = 256
 """Connections that have not said yet who they are; each ends after five seconds, the oldest gives way to a new one."""
 
@@ -36,15 +39,25 @@ RETURNS_PER_S = 1
 PLAYS_PER_S = 5
 """What those who look at a replay ask of it, with a burst of ten: a jump reads two seconds of the recording."""
 
-MOST_UPLOADS = 4
+MOST_UPLOADS = 8
 """Own avatars that come in at one time: each is held whole in memory until it was checked."""
+
+MOST_UPLOADS_A_ROOM = 4
+"""Of them of one room, so that its people, who may be slow on purpose, keep no other room from theirs."""
 
 UPLOADS_PER_S = 1 / 30
 UPLOADS_BURST = 4
 """Own avatars of one person, and how many at once: who tries several, or loads the page again."""
 
-MOST_QUEUED = 512
+MOST_QUEUED_BYTES = 4 * 1024**2
 """Texts that wait for a slow connection before it is closed: it has not read for the time of a whole meeting's talk."""
+
+MOST_FROM_ONE_BYTES = 256 * 1024
+"""Of them what one other person's browser says; more of it is dropped. A call has 3 kB, and 24 addresses of 0.3 kB."""
+
+MOST_UNSENT_BYTES = 16 * 1024
+"""Written, and not yet taken by the network: more makes ticks old on the way, where no newer one can replace them. The
+system's own buffer is held as small, which else grows to 4 MB: half a minute of a slow link."""
 
 MOST_TICKS_QUEUED = 32
 """Ticks that wait for a slow connection, a second's; older ones are dropped, as newer ones say more."""

@@ -138,7 +138,7 @@ class LiveRoom:
         if page and not self.avatars.has(seat):
             seat.own = ""  # it stayed with the process that they came by before; their page brings it again
         if page:  # a program that moves a face has no say in this
-            self._consents.enter(seat, recorded=join.recorded)
+            self._consents.enter(seat, recorded=join.recorded, recording=join.recording)
         connection.say(
             Welcome(
                 room=self.name,
@@ -224,7 +224,9 @@ class LiveRoom:
     def tick(self, *, now: float) -> None:
         """Send what moved, and free places that nobody came back to."""
         for seat in self.meeting.expire(now=now):
-            self._free(seat)
+            self._free(
+                seat, "whose face this moves is away", again=True
+            )  # a page may come back, and is moved again
         self._calls.tick()
         if self._peers:
             self._peers.tick(now=now)
@@ -264,12 +266,12 @@ class LiveRoom:
         self._calls.end(ousted.id)
         self._connections.oust(ousted.id, ousted.text, again=ousted.again)
 
-    def _free(self, seat: Seat, word: str = "you have left") -> None:
+    def _free(self, seat: Seat, word: str, *, again: bool = False) -> None:
         self.meeting.leave(seat)
         self._join_limit.forget(seat.id)
         self._calls.end(seat.id)
         self.avatars.uploads.pop(seat.id, None)
         self.avatars.take_off(seat)
         self._consents.follow()
-        self._connections.part(seat.id, word)
+        self._connections.part(seat.id, word, again=again)
         self._broadcast(Left(number=seat.number))

@@ -17,6 +17,7 @@ from room.server.replay import Replay
 from room.server.room_voices import RoomVoices
 from room.server.turn import Relays
 from room.server.voice_room import instance_of, voice_room
+from room.state.kept_rulings import KeptRulings
 
 if TYPE_CHECKING:  # needs an extra of its own
     from room.server.redis_channels import RedisChannels
@@ -62,6 +63,7 @@ class LiveRooms:
         self._channels, self._engines = channels, engines
         self._transfer = AvatarTransfer(channels, store) if channels else None
         self._rooms: dict[str, LiveRoom] = {}
+        self._kept = KeptRulings()
         self._opening: dict[str, asyncio.Task[None]] = {}
 
     def get(self, name: str) -> LiveRoom | None:
@@ -111,6 +113,7 @@ class LiveRooms:
             for name, room in list(self._rooms.items()):
                 room.tick(now=now)
                 if room.empty:
+                    self._kept.keep(name, room.meeting, now=now)
                     room.close()
                     del self._rooms[name]
 
@@ -127,6 +130,7 @@ class LiveRooms:
             transfer=self._transfer,
             voices=voices,
         )
+        self._kept.restore(name, room.meeting, now=time.monotonic())
         try:
             await room.open()
         except NotAllowed:

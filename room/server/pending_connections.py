@@ -40,14 +40,19 @@ class PendingConnections:
 
     def add(self, address: str | None, cut: Callable[[], None]) -> PendingConnection:
         """Note one more; where there are too many, the oldest of the network that most come from is cut."""
-        if len(self._connections) >= self._most:
-            crowd = Counter(each.origin for each in self._connections).most_common(1)[0][0]
-            oldest = next(each for each in self._connections if each.origin == crowd)
+        if len(self._connections) >= self._most and (oldest := self.crowd()):
             self.remove(oldest)
             oldest.cut()
         pending = PendingConnection(origin=_network(address), cut=cut)
         self._connections[pending] = None
         return pending
+
+    def crowd(self) -> PendingConnection | None:
+        """The oldest of the network that most come from; None where none is pending."""
+        if not self._connections:
+            return None
+        crowd = Counter(each.origin for each in self._connections).most_common(1)[0][0]
+        return next(each for each in self._connections if each.origin == crowd)
 
     def remove(self, pending: PendingConnection) -> None:
         """Forget one that has said who it is, or has ended."""

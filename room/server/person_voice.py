@@ -47,7 +47,8 @@ class PersonVoice:
         self._feed: int | None = None
         self._wanted: dict[int, str] = {}
         self._have: set[int] = set()
-        self._offered = self._published = False
+        self._offered = False
+        self._mids: tuple[str, ...] = ()
         self._muted = self._told_muted = False
         self._waiting: asyncio.Queue[Description | Candidate | Word] = asyncio.Queue(MOST_WAITING)
         self._task = asyncio.create_task(self._stay())
@@ -86,7 +87,7 @@ class PersonVoice:
     async def _live(self) -> None:
         self._up = self._down = 0
         self._feed, self._wanted, self._have, self._offered = None, {}, set(), False
-        self._published = self._told_muted = False
+        self._mids, self._told_muted = (), False
         self._up = await self._janus.attach(self._told)
         joined = await self._enter()
         self._feed = joined.id
@@ -146,9 +147,13 @@ class PersonVoice:
         }
 
     async def _publish(self, sdp: str) -> None:
-        body: Body = {"request": "configure" if self._published else "publish"}
+        if not _is_one_voice(sdp):
+            raise EngineGone("a page offers something else than one voice")
+        body: Body = {"request": "configure" if self._mids else "publish"}
         answer = await self._request(self._up, body, Jsep(type="offer", sdp=sdp))
-        self._published = True
+        self._mids = tuple(stream.mid for stream in answer.room.streams) or self._mids
+        if not self._mids:
+            raise EngineGone("Janus tells of no voice")
         if answer.jsep:
             description = Description(to="up", type="answer", sdp=answer.jsep.sdp)
             self._say(Signal(sender="up", signal=description))
@@ -175,7 +180,7 @@ class PersonVoice:
 
     async def _follow(self) -> None:
         """Have Janus bring what is wanted; the page answers one change before the next is offered."""
-        if self._muted != self._told_muted and self._feed is not None:
+        if self._muted != self._told_muted and self._mids:
             await self._moderate()
         if self._offered:
             return
@@ -204,7 +209,8 @@ class PersonVoice:
     async def _moderate(self) -> None:
         """Janus itself keeps a muted voice from all; a page need not be believed."""
         body: Body = {"request": "moderate", "room": self._room.number, "secret": self._room.secret}
-        await self._janus.ask(self._up, body | {"id": self._feed, "mid": "0", "mute": self._muted})
+        for mid in self._mids:  # the page names it; where Janus refuses, the line ends, muted or not
+            await self._request(self._up, body | {"id": self._feed, "mid": mid, "mute": self._muted})
         self._told_muted = self._muted
 
     async def _request(self, handle: int, body: Body, jsep: Jsep | None = None) -> Word:
@@ -212,3 +218,9 @@ class PersonVoice:
         if word.room.error_code is not None:
             raise EngineGone(f"Janus refuses: {word.room.error}")
         return word
+
+
+def _is_one_voice(sdp: str) -> bool:
+    """Whether a description offers one line of sound alone: a second one would speak on while the first is muted."""
+    lines = [line for line in sdp.splitlines() if line.lstrip().startswith("m=")]
+    return len(lines) == 1 and lines[0].startswith("m=audio ")

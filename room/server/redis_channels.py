@@ -21,7 +21,7 @@ from room.errors import InputError, NotAllowed
 from room.server.supervised import supervised
 
 MOST_WAITING = 1000
-"""Messages that wait to be published, of all rooms together; older ones are dropped, as newer ones say more."""
+"""Messages of one room that wait to be published; older ones are dropped, as newer ones say more."""
 
 REACH_S = 2.0
 """Time to connect, to be answered, and to hear one's own beat; then Redis counts as gone."""
@@ -68,10 +68,10 @@ class RedisChannels:
         self._said = said
         self._heard: dict[str, Heard] = {}
         self._confirmed: dict[str, asyncio.Event] = {}
-        self._waiting: deque[tuple[str, bytes]] = deque(maxlen=MOST_WAITING)
+        self._waiting: dict[str, deque[bytes]] = {}
         self._wake = asyncio.Event()
         self._subscription: PubSub | None = None
-        self._told_gone = False
+        self._told_gone = ""
         self._tried = asyncio.Event()
 
     @asynccontextmanager
@@ -119,8 +119,7 @@ class RedisChannels:
 
     def say(self, room: str, content: bytes) -> None:
         """Say something to every process of a room, this one among them, soon and without waiting."""
-        self._waiting.append((self._channel(room), content))
-        self._wake.set()
+        self._publish(self._channel(room), content)
 
     async def ask(self, room: str, content: bytes) -> int:
         """Say something at once; gives how many processes hear it, this one among them.
@@ -138,6 +137,11 @@ class RedisChannels:
     def _channel(self, room: str) -> str:
         return f"room:1:{self._mark}:{room}"
 
+    def _publish(self, channel: str, content: bytes) -> None:
+        # of each room by itself: one that is flooded pushes nothing of the others out
+        self._waiting.setdefault(channel, deque(maxlen=MOST_WAITING)).append(content)
+        self._wake.set()
+
     async def _part(self, subscription: PubSub, channel: str) -> None:
         with suppress(RedisError, OSError):
             if channel not in self._heard:
@@ -147,12 +151,13 @@ class RedisChannels:
         while True:
             await self._wake.wait()
             self._wake.clear()
-            batch, self._waiting = self._waiting, deque(maxlen=MOST_WAITING)
+            batch, self._waiting = self._waiting, {}
             if not self.connected:
                 continue  # what waited says less than what is said when Redis is back
             pipeline = self._redis.pipeline(transaction=False)
-            for channel, content in batch:
-                pipeline.publish(channel, content)
+            for channel, contents in batch.items():
+                for content in contents:
+                    pipeline.publish(channel, content)
             with suppress(RedisError, OSError):  # whoever listens notices, and says so
                 await pipeline.execute()
 
@@ -171,10 +176,11 @@ class RedisChannels:
                             self._hear(message)
                     finally:
                         beating.cancel()
-            except (RedisError, OSError):
-                pass
+                reason = "it is silent"
+            except (RedisError, OSError) as error:
+                reason = str(error) or type(error).__name__
             self._subscription, self.connected = None, False
-            self._tell_gone()
+            self._tell_gone(reason)
             await asyncio.sleep(WAITS_S[min(tries, len(WAITS_S) - 1)])
             tries += 1
 
@@ -186,8 +192,7 @@ class RedisChannels:
         """Say something to oneself: a Redis that has silently gone would else be waited for without end."""
         while True:
             await asyncio.sleep(REACH_S / 4)
-            self._waiting.append((self._beat, b""))
-            self._wake.set()
+            self._publish(self._beat, b"")
 
     def _hear(self, message: dict) -> None:
         channel = message["channel"].decode()
@@ -196,16 +201,18 @@ class RedisChannels:
         elif message["type"] == "message" and channel in self._heard:
             self._heard[channel](message["data"])
 
-    def _tell_gone(self) -> None:
+    def _tell_gone(self, reason: str) -> None:
         self._tried.set()
-        if not self._told_gone:
-            self._told_gone = True
+        if (
+            reason != self._told_gone
+        ):  # one that has a wrong password is never back by itself: it must be read
+            self._told_gone = reason
             self._said(
-                "redis is away: open rooms go on in each server by itself, others open when it is back"
+                f"redis is away ({reason}): open rooms go on in each server by itself, others open when it is back"
             )
 
     def _tell_back(self) -> None:
         self._tried.set()
         if self._told_gone:
-            self._told_gone = False
+            self._told_gone = ""
             self._said("redis is back: rooms are whole again")

@@ -25,12 +25,16 @@ from room.server.limits import (
 from room.server.live_room import LiveRoom
 from room.server.live_rooms import LiveRooms
 from room.server.metrics import Metrics
+from room.server.network import hold_little
 from room.server.pending_connections import PendingConnections
 from room.state import Seat
 
 ROOM_NAME = re.compile(r"[a-z0-9][a-z0-9-]{0,39}")
 JOIN_S = 5.0
 """Time for the first text, after which a connection that has said nothing ends."""
+
+AT_ONCE = 16
+"""Messages of one connection that are heard before all others have their turn."""
 
 HEARTBEAT_S = 8.0
 """A connection that answers no ping for half as long again has broken: its person is shown as away."""
@@ -85,7 +89,10 @@ class RoomSockets:
         transport = request.transport
         if transport is None:
             return socket
-        connection = Connection(socket, self._metrics, cut=transport.abort)
+        hold_little(transport)
+        connection = Connection(
+            socket, self._metrics, cut=transport.abort, unsent=transport.get_write_buffer_size
+        )
         self._sockets.add(socket)
         try:
             await self._meet(request, socket, connection)
@@ -143,7 +150,12 @@ class RoomSockets:
             TEXTS_PER_S, burst=TEXTS_PER_S * BURST_S + SIGNALS_A_PERSON * room.meeting.most_people
         )
         message: WSMessage
+        heard = 0
         async for message in socket:
+            heard += 1
+            if not heard % AT_ONCE:
+                # what has arrived is given without a pause: whom it is for could take none of it
+                await asyncio.sleep(0)
             now = time.monotonic()
             said = read_said(message.data) if message.type is WSMsgType.TEXT else None
             calls = isinstance(said, Description | Candidate)

@@ -1,7 +1,7 @@
 """Runs a server of rooms until it is stopped."""
 
 import asyncio
-import os
+import logging
 import platform
 import signal
 import ssl
@@ -11,9 +11,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from aiohttp import web
+from aiohttp.http_exceptions import HttpProcessingError
 
 from room.errors import InputError
 from room.server.application import Rooms
+from room.server.listener import Listener, allow_files, bind
+
+KEEPALIVE_S = 30.0
+"""A connection that asks nothing more ends: a page asks for what it needs at once."""
 
 SHUTDOWN_S = 2.0
 """Time to tell everybody that the server stops; then connections are cut."""
@@ -75,23 +80,41 @@ def serve(rooms: Rooms, address: Address, *, started: Callable[[str], None]) -> 
 async def _serve(
     rooms: Rooms, address: Address, tls: ssl.SSLContext | None, started: Callable[[str], None]
 ) -> None:
-    runner = web.AppRunner(rooms.application(), access_log=None, shutdown_timeout=SHUTDOWN_S)
-    await runner.setup()
+    application = rooms.application()
+    sockets = await bind(address.host, address.port)
+    runner = web.AppRunner(
+        application,
+        access_log=None,
+        logger=_log(),
+        shutdown_timeout=SHUTDOWN_S,
+        keepalive_timeout=KEEPALIVE_S,
+    )
+    listener = Listener(lambda: _protocol(runner), tls=tls, most=allow_files())
+    application.middlewares.append(listener.hear)
+    port = sockets[0].getsockname()[1]
     try:
-        site = web.TCPSite(runner, address.host, address.port, ssl_context=tls)
-        try:
-            await site.start()
-        except (OSError, UnicodeError) as error:  # UnicodeError: a name with an empty or too long part
-            number = getattr(error, "errno", None) or 0
-            reason = os.strerror(number) if number > 0 else getattr(error, "strerror", None) or str(error)
-            raise InputError(
-                f"{address.host}:{address.port}: cannot be listened at ({reason}); name another --host or --port"
-            ) from None
-        port = runner.addresses[0][1]
-        started(f"{address.scheme}://{address.name}:{port}")
-        await _stopped(rooms.stopped)
+        await runner.setup()
+        async with listener.listening(sockets, failed=rooms.stopped.set):
+            started(f"{address.scheme}://{address.name}:{port}")
+            await _stopped(rooms.stopped)
     finally:
+        for each in sockets:
+            each.close()
         await runner.cleanup()
+
+
+def _log() -> logging.Logger:
+    """Where faults of this program go: what scanners send that is no HTTP is none, and holds their addresses."""
+    log = logging.getLogger("room.server")
+    log.addFilter(
+        lambda record: not (record.exc_info and isinstance(record.exc_info[1], HttpProcessingError))
+    )
+    return log
+
+
+def _protocol(runner: web.AppRunner) -> asyncio.Protocol:
+    assert runner.server is not None
+    return runner.server()
 
 
 async def _stopped(stopped: asyncio.Event) -> None:

@@ -193,6 +193,8 @@ class Meeting:
             self.rulings.undress(seat.id)
         else:
             seat.mute(act.action == "mute")
+            if seat.muted and seat.shares:  # who may not speak shows nothing either
+                self.screen("")
             self.rulings.mute(seat.id, seat.muted)
         return seat
 

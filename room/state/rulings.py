@@ -22,6 +22,11 @@ class Rulings:
         self._mutes: dict[str, tuple[int, bool]] = {}
 
     @property
+    def any(self) -> bool:
+        """Whether there are any."""
+        return bool(self._removed or self._undressed or self._mutes)
+
+    @property
     def removed(self) -> tuple[str, ...]:
         """Ids of those who are kept out."""
         return tuple(self._removed)

@@ -13,7 +13,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 from facegen.cli import app
-from facegen.console import counted, progress
+from facegen.console import counted, progress, say
 from facegen.errors import InputError
 from facegen.extras import FACTORY, HEADSET, LEARN, missing_extra
 from tests.facegen.cli.commands import ROOT, calls, sub_commands
@@ -160,3 +160,13 @@ def test_a_farm_reads_shares_and_an_unknown_style_is_refused(capsys):
 def test_a_count_of_one_is_told_in_the_singular():
     assert [counted(number, "file") for number in (0, 1, 2)] == ["0 files", "1 file", "2 files"]
     assert [counted(number, "person", "people") for number in (1, 12)] == ["1 person", "12 people"]
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a disk that is always full")
+def test_a_log_that_cannot_be_written_stops_no_work(monkeypatch):
+    with open(os.open("/dev/full", os.O_WRONLY), "w", closefd=False) as full:
+        monkeypatch.setattr("sys.stderr", full)
+        for _ in range(10_000):
+            say("a line")
+        monkeypatch.undo()
+        os.dup2(os.open(os.devnull, os.O_WRONLY), full.fileno())

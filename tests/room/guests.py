@@ -112,10 +112,15 @@ class Place:
 
     def __init__(self, address: str, keys: Keys, name: str = "meeting") -> None:
         self.address, self.keys, self.name = address, keys, name
-        self.session = ClientSession()
+        self.session, self.recording = ClientSession(), ""
 
     def join(self, **change: object) -> Join:
-        made = Join(key=self.keys.key(self.name, "guest"), secret=secrets.token_urlsafe(16), name="Ada")
+        made = Join(
+            key=self.keys.key(self.name, "guest"),
+            secret=secrets.token_urlsafe(16),
+            name="Ada",
+            recording=self.recording,
+        )
         return made.model_copy(update=change)
 
     async def connect(self, **options: object) -> ClientWebSocketResponse:
@@ -169,6 +174,7 @@ async def open_room(
     try:
         async with serving(rooms.application(), port) as port:
             place = Place(f"http://127.0.0.1:{port}", keys)
+            place.recording = recorder.id if recorder else ""
             try:
                 yield place
             finally:

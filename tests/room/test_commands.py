@@ -11,6 +11,7 @@ import ssl
 import stat
 import subprocess
 import sys
+import urllib.request
 from pathlib import Path
 
 import aiohttp
@@ -153,7 +154,7 @@ def test_engines_that_cannot_be_used_are_refused_before_anything_is_written(case
     ],
 )
 def test_a_server_that_is_refused_leaves_no_recording_and_no_keys(refused, tmp_path):
-    """The corrected command would else find a recording that is there already."""
+    """The corrected command would else find a file of the refused one."""
     for name in ("bad", "bad.jsonl"):
         (tmp_path / name).write_text("no such thing")
     with socket.socket() as taken:
@@ -166,6 +167,35 @@ def test_a_server_that_is_refused_leaves_no_recording_and_no_keys(refused, tmp_p
     assert isinstance(result.exception, InputError), result.exception
     assert sorted(path.name for path in tmp_path.iterdir()) == ["bad", "bad.jsonl"]
     assert (tmp_path / "bad.jsonl").read_text() == "no such thing"
+
+
+def test_keys_that_cannot_be_kept_leave_no_recording(tmp_path):
+    options = ("--record", str(tmp_path / "new.jsonl"), "--keys", str(tmp_path / "none" / "new.keys"))
+    result = CliRunner().invoke(app, ["serve", "--port", "0", *options])
+    assert isinstance(result.exception, OutputError), result.exception
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs a disk that is always full")
+def test_a_full_disk_under_the_log_ends_no_server():
+    with (
+        open("/dev/full", "w") as full,
+        subprocess.Popen(
+            (sys.executable, "-m", "room", "serve", "--port", "0"),
+            stdout=subprocess.PIPE,
+            stderr=full,
+            text=True,
+            env={**os.environ, "PYTHONPATH": str(ROOT)},
+        ) as run,
+    ):
+        try:
+            link = run.stdout.readline().split("\t")[2]
+            with urllib.request.urlopen(link.partition("/room/")[0] + "/health", timeout=120) as answer:
+                assert answer.read() == b"well\n"
+            assert run.poll() is None
+        finally:
+            run.terminate()
+            run.communicate(timeout=120)
 
 
 def test_a_recording_that_has_no_folder_leaves_no_keys(tmp_path):

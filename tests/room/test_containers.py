@@ -1,10 +1,12 @@
 """What containers/room starts, started here by the real programs: the recipes were written where no container runs."""
 
 import asyncio
+import ipaddress
 import re
 import shutil
 import subprocess
 import time
+from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
@@ -73,29 +75,96 @@ def test_redis_starts_as_compose_starts_it():
         pass
 
 
-@pytest.mark.skipif(shutil.which("turnserver") is None, reason="needs coturn (Debian: coturn)")
-def test_a_running_coturn_takes_the_credentials_of_a_page_and_no_others(tmp_path):
-    """With the settings that stand here; and it passes nothing on to machines of private networks."""
+needs_coturn = pytest.mark.skipif(shutil.which("turnserver") is None, reason="needs coturn (Debian: coturn)")
+
+
+def _relayed(folder: Path, settings: str, peers: Iterable[str], password: str = "") -> list[str]:
+    """What a page's browser hears of a running coturn when it asks for a way to each peer."""
     port = free_port()
+    (folder / "turnserver.conf").write_text(settings)
     here = ("--listening-ip", "127.0.0.1", "--relay-ip", "127.0.0.1", "--listening-port", str(port))
-    files = ("--pidfile", f"{tmp_path}/pid", "--userdb", f"{tmp_path}/users", "--log-file", f"{tmp_path}/log")
-    settings = ("-c", str(ROOM / "turnserver.conf"), "--static-auth-secret", "north")
+    files = ("--pidfile", f"{folder}/pid", "--userdb", f"{folder}/users", "--log-file", f"{folder}/log")
+    own = ("-c", str(folder / "turnserver.conf"), "--static-auth-secret", "north")
     relay = Relays(turn=("turn:b:2",), secret="north").servers("ada", now_s=time.time())[0]
 
-    def client(password: str) -> str:
-        command = ("turnutils_uclient", "-p", str(port), "-u", relay.username, "-w", password)
+    def client(peer: str) -> str:
+        command = (
+            "turnutils_uclient",
+            "-p",
+            str(port),
+            "-u",
+            relay.username,
+            "-w",
+            password or relay.credential,
+        )
         with suppress(subprocess.TimeoutExpired):
             done = subprocess.run(
-                [*command, "-n", "1", "-c", "-y", "127.0.0.1"], capture_output=True, text=True, timeout=20
+                [*command, "-n", "1", "-c", "-e", peer, "127.0.0.1"],
+                capture_output=True,
+                text=True,
+                timeout=20,
             )
             return done.stdout + done.stderr
         return ""
 
-    with started("turnserver", *settings, *here, *files, port=port):
-        taken, refused = client(relay.credential), client("guess")
-    assert "Cannot complete Allocation" not in taken
-    assert "channel bind: error 403 (Forbidden IP)" in taken
-    assert "Cannot complete Allocation" in refused
+    with started("turnserver", *own, *here, *files, port=port):
+        return [client(peer) for peer in peers]
+
+
+FORBIDDEN = "error 403 (Forbidden IP)"
+
+
+@needs_coturn
+def test_a_running_coturn_takes_the_credentials_of_a_page_and_no_others(tmp_path):
+    """With the settings that stand here; and it passes nothing on to machines of private networks."""
+    settings = (ROOM / "turnserver.conf").read_text()
+    peers = (
+        "10.1.2.3",
+        "172.16.0.1",
+        "192.168.1.1",
+        "100.64.0.1",
+        "169.254.169.254",
+        "192.0.2.1",
+        "198.18.0.1",
+    )
+    for answer in _relayed(tmp_path, settings, peers):
+        assert "Cannot complete Allocation" not in answer
+        assert FORBIDDEN in answer
+    assert "Cannot complete Allocation" in _relayed(tmp_path, settings, ["10.1.2.3"], "guess")[0]
+    bare = "".join(line for line in settings.splitlines(True) if "10.0.0.0" not in line)
+    # coturn holds addresses of IPv4 against ranges of IPv6 too, and one that began with :: took them all
+    assert FORBIDDEN not in _relayed(tmp_path, bare, ["10.1.2.3"])[0], "it is the settings that forbid it"
+
+
+def test_coturn_is_told_of_every_network_that_is_not_of_all():
+    """Of both families; Python knows the registry of the numbers' authority."""
+    lines = (ROOM / "turnserver.conf").read_text().splitlines()
+    told = [line.partition("=")[2].split("-") for line in lines if line.startswith("denied-peer-ip=")]
+    ranges = [(ipaddress.ip_address(first), ipaddress.ip_address(last)) for first, last in told]
+    private = (
+        *(
+            "0.0.0.1",
+            "10.0.0.1",
+            "100.64.0.1",
+            "100.127.255.255",
+            "127.0.0.1",
+            "169.254.169.254",
+            "172.31.255.255",
+        ),
+        *("192.0.0.8", "192.0.2.1", "192.168.0.1", "198.19.0.1", "198.51.100.1", "203.0.113.1", "224.0.0.1"),
+        *("240.0.0.1", "255.255.255.255", "::1", "::ffff:10.0.0.1", "64:ff9b::a00:1", "64:ff9b:1::1"),
+        *("2001::1", "2001:db8::1", "2002:a00:1::", "fc00::1", "fd12::1", "fe80::1", "fec0::1", "ff02::1"),
+    )
+    for text in private:
+        address = ipaddress.ip_address(text)
+        assert any(first.version == address.version and first <= address <= last for first, last in ranges), (
+            f"{text} is passed on to"
+        )
+    for text in ("1.1.1.1", "100.128.0.1", "172.32.0.1", "193.0.0.1", "2606:4700::1", "2a00::1"):
+        address = ipaddress.ip_address(text)
+        assert not any(
+            first.version == address.version and first <= address <= last for first, last in ranges
+        )
 
 
 @pytest.mark.slow

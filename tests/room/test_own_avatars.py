@@ -24,7 +24,7 @@ from room.gltf.check import MOST_NUMBERS, MOST_PICTURES, MOST_SIDE_PIXELS, MOST_
 from room.gltf.extensions import HOW
 from room.protocol.answers import Changed, Left, Notice
 from room.server.application import STATIC
-from room.server.limits import MOST_UPLOADS, UPLOADS_BURST
+from room.server.limits import MOST_UPLOADS_A_ROOM, UPLOADS_BURST
 from tests.room.avatars import BINARY, POINTS, avatar, png, textured
 from tests.room.guests import Guest, Place, open_room
 
@@ -42,6 +42,19 @@ def _at(*path: object, **values: object):
         made.update(values)
 
     return change
+
+
+def _with_zeros(primitive: dict | None = None, *, count: int, type: str = "VEC3", **records: object) -> bytes:
+    """An avatar with an accessor (2) that has no view, whatever may read it."""
+
+    def change(made: dict) -> None:
+        zeros = {"componentType": 5125 if type == "SCALAR" else 5126, "count": count, "type": type}
+        made["accessors"] = [*made["accessors"][:2], zeros]
+        made.update(records)
+        if primitive:
+            made["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, **primitive})
+
+    return avatar(change)
 
 
 def _many_pictures(made: dict) -> None:
@@ -118,6 +131,35 @@ REFUSED = {
             )
         ),
         "fewer vertices",
+    ),
+    "indices of points": (
+        _with_zeros({"mode": 0, "indices": 2}, count=2**31, type="SCALAR"),
+        "fewer vertices",
+    ),
+    "indices of lines": (
+        _with_zeros({"mode": 1, "indices": 2}, count=2**28, type="SCALAR"),
+        "fewer vertices",
+    ),
+    "a skin of zeros": (_with_zeros(count=2**28, type="MAT4", skins=[{"inverseBindMatrices": 2}]), "bones"),
+    "a skin again and again": (
+        _with_zeros(count=2**20, type="MAT4", skins=[{"inverseBindMatrices": 2}] * 4),
+        "bones",
+    ),
+    "a movement of zeros": (
+        _with_zeros(count=2**30, animations=[{"samplers": [{"input": 2, "output": 2}]}]),
+        "without animations",
+    ),
+    "a movement of many things": (
+        _with_zeros(
+            count=10**6,
+            animations=[{"samplers": [{"input": 2, "output": 2}], "channels": [{"sampler": 0}] * 10}],
+        ),
+        "without animations",
+    ),
+    "zeros that nothing names": (_with_zeros(count=2**30), "fewer vertices"),
+    "a movement that is not there": (
+        _with_zeros(count=3, animations=[{"channels": [{"sampler": 0}]}]),
+        "names sampler 0",
     ),
     "many nodes": (avatar(_nodes(MOST_NODES)), "nodes"),
     "a node below itself": (avatar(_at("nodes", 1, children=[0])), "hang on themselves"),
@@ -326,12 +368,39 @@ def test_one_who_sends_slowly_keeps_nobody_else_from_it():
         first = asyncio.create_task(bring(place, ada, slow()))
         await begun.wait()
         await asyncio.sleep(0.1)  # it is on its way before the next one asks
-        for _ in range(MOST_UPLOADS - 1):
+        for _ in range(MOST_UPLOADS_A_ROOM - 1):
             status, sentence = await bring(place, ada, slow())
             assert (status, "another avatar of yours" in sentence) == (429, True)
         assert (await bring(place, ben, avatar()))[0] == 200
         rest.set()
         assert (await first)[0] == 422
+
+    meet(run)
+
+
+def test_a_room_whose_people_all_send_slowly_keeps_no_other_room_from_it():
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        rest = asyncio.Event()
+
+        async def slow(begun: asyncio.Event):
+            yield b"x"
+            begun.set()
+            await rest.wait()
+
+        sending = []
+        for _ in range(MOST_UPLOADS_A_ROOM):
+            begun = asyncio.Event()
+            sending.append(asyncio.create_task(bring(place, await place.guest(), slow(begun))))
+            await begun.wait()
+        await asyncio.sleep(0.1)  # they are on their way before the next one asks
+        assert (await bring(place, ada, avatar()))[0] == 503
+        other = Place(place.address, place.keys, "other")
+        try:
+            assert (await bring(other, await other.guest(), avatar()))[0] == 200
+        finally:
+            await other.session.close()
+        rest.set()
+        assert {status for status, _ in await asyncio.gather(*sending)} == {422}
 
     meet(run)
 

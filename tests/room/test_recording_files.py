@@ -2,6 +2,7 @@
 
 import base64
 import json
+from itertools import pairwise
 
 import pytest
 from hypothesis import given, settings
@@ -41,12 +42,14 @@ BAD = {
 }
 
 
-def test_a_recording_can_be_followed_from_every_mark(tmp_path, monkeypatch):
+@pytest.mark.parametrize(("most", "fewest"), [(100_000, 6), (10, 2)])
+def test_a_recording_can_be_followed_from_every_mark(most, fewest, tmp_path, monkeypatch):
     path = recorded(tmp_path / "meeting.jsonl")
     monkeypatch.setattr("room.recording.reader.MARKS_MS", 50)
+    monkeypatch.setattr("room.recording.reader.MOST_MARKED", most)
     lines = list(read_recording(path))[1:]
     survey = check_recording(path)
-    assert len(survey.marks) > 5
+    assert fewest <= len(survey.marks) <= most
     for mark in survey.marks:
         rest = list(follow_recording(path, mark))
         before = lines[: len(lines) - len(rest)]
@@ -59,6 +62,26 @@ def test_a_recording_can_be_followed_from_every_mark(tmp_path, monkeypatch):
             if isinstance(line, Gone):
                 del there[line.number]
         assert mark.cast == there
+
+
+def test_a_recording_of_ever_other_people_takes_no_more_memory_than_it_may(tmp_path, monkeypatch):
+    """2 MB could hold a cast of a thousand for each of ten thousand seconds, all of them different."""
+    monkeypatch.setattr("room.recording.reader.MOST_MARKED", 5_000)
+    state = base64.b64encode(encode(Message())).decode()
+    lines = [GOOD.replace("SHAPES", json.dumps(BLENDSHAPES))]
+    lines += [CAME.replace('"number":0', f'"number":{number}') for number in range(300)]
+    for second in range(1, 500):
+        lines.append(
+            CAME.replace('"time_ms":5', f'"time_ms":{1000 * second}').replace("Ada", f"Ada {second}")
+        )
+        lines.append(f'{{"kind":"tick","time_ms":{1000 * second},"states":[[0,"{state}"]]}}\n')
+    path = tmp_path / "meeting.jsonl"
+    path.write_text("".join(lines))
+    marks = check_recording(path).marks
+    assert sum({id(mark.cast): len(mark.cast) for mark in marks}.values()) <= 5_000
+    gaps = [after.time_ms - before.time_ms for before, after in pairwise(marks)]
+    assert len(marks) > 5
+    assert max(gaps[:-1]) <= 3 * min(gaps[:-1]), "spread over the whole"
 
 
 @pytest.mark.parametrize("content", BAD.values(), ids=BAD.keys())

@@ -1,15 +1,18 @@
 """The page of a recorded room asks before it comes in, and that of a replay says that it is one."""
 
 import asyncio
+from contextlib import AsyncExitStack
 from pathlib import Path
 
 import pytest
 
 from room.recording import Recorder, read_recording
 from room.recording.lines import Came, Gone
+from room.server import new_keys
 from room.server.live_room import HERTZ
 from tests.browser import chromium, needs_chromium
 from tests.room.bare_place import BARE
+from tests.room.engines import free_port
 from tests.room.guests import SOON_S, Place, open_room
 from tests.room.page import AWAKE, come_in
 from tests.room.recordings import states
@@ -93,3 +96,33 @@ def test_consent_is_asked_before_and_a_replay_moves_as_recorded(tmp_path):
 
     asyncio.run(run())
     assert Path(path).exists()
+
+
+def test_a_yes_is_asked_for_anew_where_another_recording_begins(tmp_path):
+    """The page comes back by itself, and must not carry the first yes into a second file."""
+    keys, port = new_keys(), free_port()
+
+    def served(name: str):
+        recorder = Recorder(tmp_path / name, room="meeting", hertz=HERTZ, ended=pytest.fail)
+        return open_room(recorder=recorder, places=BARE, keys=keys, port=port)
+
+    async def run() -> None:
+        async with AsyncExitStack() as stack:
+            browser = await stack.enter_async_context(chromium(*AWAKE))
+            async with served("first.jsonl") as place:
+                tab = await stack.enter_async_context(browser.open(link(place)))
+                await tab.until(SEEN % "#recording")
+                await tab.ask(answer("yes"))
+                await come_in(tab, "Ada")
+                await tab.until(f"{MARK}.textContent === 'You are recorded' && {SEEN % '#mark'}")
+                first = await tab.ask("meeting.own.recording")
+            async with served("second.jsonl"):
+                await tab.until(f"meeting.own.recording !== '{first}' && meeting.known.size === 1")
+                await tab.until(f"!({SEEN % '#mark'})")
+                assert (
+                    await tab.ask("document.querySelector('#consent').textContent") == "Agree to be recorded"
+                )
+                await tab.ask("document.querySelector('#consent').click()")
+                await tab.until(SEEN % "#mark")
+
+    asyncio.run(run())

@@ -1,11 +1,18 @@
 """What moderators have decided of people holds for those who leave and come back, and takes no more than its room."""
 
-import pytest
+import asyncio
 
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from room.protocol.answers import Door
 from room.protocol.texts import Join, Moderate
 from room.state import Meeting, Seat
+from room.state.kept_rulings import KEPT_S, MOST_KEPT, KeptRulings
 from room.state.meeting import KEEP_S
 from room.state.rulings import MOST_RULED, Rulings
+from tests.room.guests import meeting
 
 SECRET = "a" * 22
 
@@ -59,3 +66,58 @@ def test_of_mutes_the_later_act_counts_and_what_is_known_is_not_new():
     assert rulings.mutes["a"] == (4, False)
     assert rulings.remove("a")
     assert not rulings.remove("a")
+
+
+@meeting
+async def test_what_moderators_decided_holds_after_all_have_gone(place):
+    chair, ada, eve = (
+        await place.guest(moderator=True),
+        await place.guest(),
+        await place.guest(name="Eve"),
+    )
+    await chair.say(kind="moderate", action="mute", number=ada.number)
+    await chair.say(kind="moderate", action="remove", number=eve.number)
+    await chair.say(kind="moderate", action="lock")
+    await ada.told(Door)
+    for guest in (ada, chair):
+        await guest.say(kind="leave")
+        await guest.end()
+    while "room_rooms 0\n" not in await (await place.session.get(f"{place.address}/metrics")).text():
+        await asyncio.sleep(0.01)
+    _, refused = await (await place.come(secret=eve.secret)).end()
+    assert "removed you" in refused[0].text
+    _, refused = await (await place.come(name="new")).end()
+    assert "locked" in refused[0].text
+    chair = await place.guest(moderator=True)
+    assert chair.welcome.locked
+    await chair.say(kind="moderate", action="unlock")
+    await chair.told(Door)
+    again = await place.guest(secret=ada.secret)
+    assert [person.muted for person in again.welcome.people if person.id == again.welcome.id] == [True]
+
+
+@given(st.lists(st.tuples(st.sampled_from("abc"), st.floats(0, KEPT_S)), max_size=20))
+def test_rulings_are_kept_for_so_long_after_a_room_was_last_in_use(uses):
+    kept, now, last = KeptRulings(), 0.0, {}
+    for name, later in uses:
+        now += later
+        room = Meeting(most_people=4)
+        kept.restore(name, room, now=now)
+        assert room.rulings.is_removed("eve") == (name in last and now - last[name] <= KEPT_S)
+        room.rulings.remove("eve")
+        kept.keep(name, room, now=now)
+        last[name] = now
+
+
+def test_of_too_many_empty_rooms_the_longest_empty_is_forgotten():
+    kept = KeptRulings()
+    for number in range(MOST_KEPT + 1):
+        room = Meeting(most_people=4)
+        room.rulings.remove("eve")
+        kept.keep(str(number), room, now=0.0)
+    held = []
+    for number in range(MOST_KEPT + 1):
+        room = Meeting(most_people=4)
+        kept.restore(str(number), room, now=0.0)
+        held.append(room.rulings.is_removed("eve"))
+    assert held == [False] + [True] * MOST_KEPT

@@ -106,6 +106,26 @@ async def test_a_program_moves_the_face_and_nothing_else_and_gives_it_back(place
     await ben.until(lambda: ben.states[ada.number].weights[0] == 0.2)
 
 
+def test_a_program_may_come_back_to_who_was_away_for_long(monkeypatch):
+    """`track` ends for good at a word that says so; its person has only lost the network for a while."""
+    monkeypatch.setattr("room.state.meeting.KEEP_S", 0.1)
+
+    async def run() -> None:
+        async with open_room() as place:
+            ada = await place.guest()
+            program = await place.guest(secret=ada.secret, role="face")
+            await ada.go()
+            _, words = await program.end()
+            assert [word.again for word in words] == [True]
+            ada = await place.guest(secret=ada.secret)
+            program = await place.guest(secret=ada.secret, role="face")
+            await ada.say(kind="leave")
+            _, words = await program.end()
+            assert [word.again for word in words] == [False]
+
+    asyncio.run(run())
+
+
 @meeting
 async def test_chat_and_calls_go_to_whom_they_are_for(place):
     ada, ben, cy = await place.guest(), await place.guest(name="Ben"), await place.guest(name="Cy")

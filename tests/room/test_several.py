@@ -16,7 +16,7 @@ from room.server.connection import CLOSED_BY_RULE
 from room.server.peer_processes import AGAIN_S
 from room.server.redis_channels import RedisChannels
 from tests.room.avatars import avatar
-from tests.room.engines import free_port, needs_redis, redis
+from tests.room.engines import free_port, needs_redis, redis, started
 from tests.room.guests import SOON_S, Guest, Place, open_room
 
 pytestmark = needs_redis
@@ -284,6 +284,47 @@ def test_redis_may_be_killed_and_nobody_is_driven_out():
             await away.session.close()
 
     asyncio.run(run())
+
+
+def test_a_room_that_is_flooded_pushes_nothing_of_another_out(port):
+    async def run() -> None:
+        async with server(port, new_keys()) as north:
+            heard: list[bytes] = []
+            await north.channels.join("calm", heard.append)
+            north.channels.say("calm", b"a word")
+            for _ in range(3000):
+                north.channels.say("loud", b"noise")
+            async with asyncio.timeout(SOON_S):
+                while not heard:
+                    await asyncio.sleep(0.01)
+            assert heard == [b"a word"]
+
+    asyncio.run(run())
+
+
+def test_a_redis_that_takes_no_password_is_said_to_do_so():
+    free, said = free_port(), []
+
+    async def run() -> None:
+        channels = RedisChannels(f"redis://:guess@127.0.0.1:{free}/0", secret=b"s", said=said.append)
+        async with channels.running(failed=pytest.fail), asyncio.timeout(SOON_S):
+            while not any("password" in each for each in said):
+                await asyncio.sleep(0.05)
+
+    command = (
+        "redis-server",
+        "--port",
+        str(free),
+        "--bind",
+        "127.0.0.1",
+        "--save",
+        "",
+        "--requirepass",
+        "north",
+    )
+    with started(*command, port=free):
+        asyncio.run(run())
+    assert len(said) == 1
 
 
 def test_a_message_that_is_none_is_let_alone(port):

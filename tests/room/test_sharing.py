@@ -62,6 +62,15 @@ async def test_a_moderator_ends_it_and_a_mute_keeps_from_it(place):
 
 
 @meeting
+async def test_who_is_muted_shows_nothing_any_more(place):
+    chair, ada = await place.guest(moderator=True, name="Chair"), await place.guest()
+    await ada.say(kind="share", on=True)
+    await chair.told(Changed, _shares(ada.number))
+    await chair.say(kind="moderate", action="mute", number=ada.number)
+    await ada.told(Changed, _shares(ada.number, on=False))
+
+
+@meeting
 async def test_a_page_that_is_loaded_anew_shares_no_longer(place):
     ada, ben = await place.guest(visit="first"), await place.guest(name="Ben")
     await ada.say(kind="share", on=True)

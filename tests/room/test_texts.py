@@ -31,6 +31,9 @@ def test_a_join_is_read():
         {"name": "   "},
         {"name": "a" * 41},
         {"name": "\u2060"},
+        {"name": "\u3164"},
+        {"name": "\u2800\u2800"},
+        {"name": "\ufe0f\u0301"},
         {"name": 7},
         {"avatar": "../../etc/passwd"},
         {"avatar": "https://elsewhere.example/a.glb"},
@@ -54,6 +57,16 @@ def test_a_join_is_refused(change):
         ("two\x85lines", "two lines"),
         ("Ada\u200b", "Ada"),
         ("\ufeffAda", "Ada"),
+        *(
+            (f"An{sign}na{sign}", "Anna")
+            for sign in "\u00ad\u034f\u115f\u2800\u3164\uffa0\u200c\u200d\ufe0f\U000e0041"
+        ),
+        ("Anna\u200c\u200d\u200c", "Anna"),
+        ("\u0645\u06cc\u200c\u062e", "\u0645\u06cc\u200c\u062e"),
+        (
+            "\U0001f469\u200d\U0001f52c \u2764\ufe0f 1\ufe0f\u20e3",
+            "\U0001f469\u200d\U0001f52c \u2764\ufe0f 1\ufe0f\u20e3",
+        ),
     ],
 )
 def test_of_a_name_there_is_what_is_seen(name, seen):

@@ -54,11 +54,11 @@ async def voiced(port: int, keys: Keys | None = None) -> AsyncIterator[Place]:
         yield place
 
 
-async def speak(guest: Guest) -> None:
+async def speak(guest: Guest, offer: str = OFFER) -> None:
     """Offer a voice, and wait for Janus's answer."""
     await guest.told(Engine, lambda engine: engine.state == "ready")
     answered = len(guest.all(Signal))
-    await guest.say(kind="description", to="up", type="offer", sdp=OFFER)
+    await guest.say(kind="description", to="up", type="offer", sdp=offer)
     await guest.until(lambda: any(signal.sender == "up" for signal in guest.all(Signal)[answered:]))
 
 
@@ -98,6 +98,72 @@ def test_who_says_nonsense_to_a_line_gets_a_new_one_and_disturbs_nobody(port, mo
             await speak(ada)
             await speak(ben)
             assert [each.state for each in ben.all(Engine)] == ["ready"]
+
+    asyncio.run(run())
+
+
+def test_a_moderator_mutes_a_voice_by_whatever_name_its_page_gives_it(port, monkeypatch):
+    """Asked of Janus itself: a page once named its voice otherwise, and spoke on."""
+    muted: list[tuple[object, object, int | None]] = []
+    ask = Janus.ask
+
+    async def told(self, handle, body, jsep=None):
+        word = await ask(self, handle, body, jsep)
+        if body["request"] == "moderate":
+            muted.append((body["mid"], body["mute"], word.room.error_code))
+        return word
+
+    monkeypatch.setattr(Janus, "ask", told)
+
+    async def run() -> None:
+        async with voiced(port) as place:
+            chair, ada = await place.guest(moderator=True), await place.guest()
+            await speak(ada, OFFER.replace("a=mid:0", "a=mid:seven").replace("BUNDLE 0", "BUNDLE seven"))
+            await chair.say(kind="moderate", action="mute", number=ada.number)
+            async with asyncio.timeout(SOON_S):
+                while not muted:
+                    await asyncio.sleep(0.01)
+            await chair.say(kind="moderate", action="unmute", number=ada.number)
+            async with asyncio.timeout(SOON_S):
+                while len(muted) < 2:
+                    await asyncio.sleep(0.01)
+            assert [each.state for each in ada.all(Engine)] == ["ready"]
+
+    asyncio.run(run())
+    assert muted == [("seven", True, None), ("seven", False, None)]
+
+
+@pytest.mark.parametrize("more", ["m=audio 9 UDP/TLS/RTP/SAVPF 111", "m=video 9 UDP/TLS/RTP/SAVPF 96"])
+def test_who_offers_more_than_one_voice_is_not_heard(more, port, monkeypatch):
+    monkeypatch.setattr("room.server.person_voice.AGAIN_S", 0.1)
+
+    async def run() -> None:
+        async with voiced(port) as place:
+            ada = await place.guest()
+            await ada.told(Engine)
+            media = OFFER[OFFER.index("m=audio") :].replace("a=mid:0", "a=mid:1")
+            second = more + media[media.index("\r\n") :]
+            both = OFFER.replace("BUNDLE 0", "BUNDLE 0 1") + second.replace("ssrc:1", "ssrc:2")
+            await ada.say(kind="description", to="up", type="offer", sdp=both)
+            await ada.until(lambda: [each.state for each in ada.all(Engine)] == ["ready", "away", "ready"])
+            assert not ada.all(Signal)
+
+    asyncio.run(run())
+
+
+def test_where_janus_does_not_mute_the_line_ends(port, monkeypatch):
+    monkeypatch.setattr("room.server.person_voice.AGAIN_S", 0.1)
+    monkeypatch.setattr(
+        "room.server.person_voice.PersonVoice._mids",
+        property(lambda _: ("none",), lambda *_: None),
+        raising=False,
+    )
+
+    async def run() -> None:
+        async with voiced(port) as place:
+            chair, ada = await place.guest(moderator=True), await place.guest()
+            await chair.say(kind="moderate", action="mute", number=ada.number)
+            await ada.told(Engine, lambda engine: engine.state == "away")
 
     asyncio.run(run())
 

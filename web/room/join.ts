@@ -20,6 +20,8 @@ export interface Choice {
   /** Whether the microphone hears what is played, in a browser that has to be helped with that (loopback.ts). */
   readonly echoes: boolean;
   readonly recorded: boolean;
+  /** Id of the recording that was asked about. */
+  readonly recording: string;
 }
 
 /** -60 dB is silence on the meter, 0 dB its end. */
@@ -34,7 +36,7 @@ export function readLink(): Link | undefined {
 /** What the room says to whoever is still outside; a server that says nothing is tried for by the line itself. */
 export async function about({ room }: Link): Promise<About> {
   const answer = await fetch(`/room/${room}/about.json`, { cache: "no-store" }).catch(() => undefined);
-  return answer?.ok ? ((await answer.json()) as About) : { recording: false, replay: false, engine: false };
+  return answer?.ok ? ((await answer.json()) as About) : { recording: "", replay: false, engine: false };
 }
 
 /** Ask until the person presses "Come in". */
@@ -49,7 +51,7 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   byId("straight").hidden = engine;
   byId("passed").hidden = !engine;
   byId("replayed").hidden = !replay;
-  for (const choice of document.querySelectorAll<HTMLInputElement>("#recording input")) choice.required = recording;
+  for (const choice of document.querySelectorAll<HTMLInputElement>("#recording input")) choice.required = recording !== "";
   const word = byId("word");
   const level = byId<HTMLMeterElement>("level");
   avatar.replaceChildren(...avatars.map((each) => new Option(each)));
@@ -104,8 +106,8 @@ export async function ask(avatars: string[], { recording, replay, engine }: Abou
   localStorage.setItem("name", name.value.trim());
   form.hidden = true;
   const echoes = !!microphone && !headphones.checked && "userAgentData" in navigator; // only Chromium has that
-  const recorded = recording && consent.value === "yes";
-  return { name: name.value.trim(), avatar: avatar.value, own: field<HTMLInputElement>("own").files?.[0], microphone, camera: camera.checked, echoes, recorded };
+  const recorded = recording !== "" && consent.value === "yes";
+  return { name: name.value.trim(), avatar: avatar.value, own: field<HTMLInputElement>("own").files?.[0], microphone, camera: camera.checked, echoes, recorded, recording };
 }
 
 function once(elements: readonly HTMLElement[], event: string): Promise<unknown> {

@@ -122,6 +122,7 @@ export class Meeting {
     this.locked = welcome.locked;
     this.lineWord = "";
     if (this.meetingPlace.word) this.tell(this.meetingPlace.word);
+    this.asked(welcome.recording);
     this.screen.configure(welcome.ice);
     this.line.say({ kind: "voice", open: this.microphone?.isOpen ?? false });
     this.show();
@@ -209,10 +210,19 @@ export class Meeting {
     this.controls.show(this.own, people, this.locked);
   }
 
+  /** A yes counts for the recording that was asked about: of another one its person is asked anew, and not in it meanwhile. */
+  private asked(recording: string): void {
+    if (recording === this.join.recording) return;
+    if (recording) this.tell('This room is recorded from now on, or by another recording. You are not in it; "Agree to be recorded" changes that.');
+    this.join.recorded = false;
+    this.join.recording = recording;
+  }
+
   /** Agree to be recorded, or no longer; also after a break of the line. */
   private consent(): void {
     const recorded = !this.people.self?.recorded;
     this.join.recorded = recorded;
+    this.join.recording = this.own?.recording ?? "";
     this.line.say({ kind: "consent", recorded });
   }
 

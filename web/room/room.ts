@@ -38,7 +38,7 @@ async function main(): Promise<void> {
   const { protocol, host, origin } = location;
   const meeting = new Meeting(
     `${protocol === "https:" ? "wss" : "ws"}://${host}/room/${link.room}/socket`,
-    { kind: "join", version: 1, key: link.key, secret, name: choice.name, avatar: choice.avatar, visit, role: "page", recorded: choice.recorded },
+    { kind: "join", version: 1, key: link.key, secret, name: choice.name, avatar: choice.avatar, visit, role: "page", recorded: choice.recorded, recording: choice.recording },
     choice.microphone,
     `${origin}/room/${link.room}#${link.key}.${secret}`,
     choice.echoes,

@@ -48,7 +48,7 @@ export interface Candidate {
 export type Act = "mute" | "unmute" | "undress" | "unshare" | "remove" | "lock" | "unlock";
 
 export type Said =
-  | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; visit: string; role: "page"; recorded: boolean; at_ms?: number }
+  | { kind: "join"; version: 1; key: string; secret: string; name: string; avatar: string; visit: string; role: "page"; recorded: boolean; recording: string; at_ms?: number }
   | { kind: "chat"; text: string }
   | { kind: "voice"; open: boolean }
   | Description
@@ -62,7 +62,8 @@ export type Said =
 
 /** What a page asks before it comes in. */
 export interface About {
-  recording: boolean;
+  /** Id of the recording that is made; empty where there is none. A yes counts for one alone. */
+  recording: string;
   replay: boolean;
   engine: boolean;
 }
@@ -76,7 +77,8 @@ export interface Welcome {
   locked: boolean;
   hertz: number;
   shapes: string[];
-  recording: boolean;
+  /** Id of the recording that is made; empty where there is none. A yes counts for one alone. */
+  recording: string;
   replay: boolean;
   /** Whether voices go by an engine. */
   engine: boolean;
