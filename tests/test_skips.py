@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.skips import ALLOWED, is_allowed
+from tests.skips import ALLOWED, in_ci, is_allowed
 
 ROOT = Path(__file__).parents[1]
 
@@ -80,3 +80,11 @@ def test_a_tool_that_is_missing_is_not_allowed():
     ):
         assert not is_allowed(reason)
     assert is_allowed("no real recordings in /x; FACEGEN_REAL names another folder")
+
+
+def test_skips_are_told_alone_where_a_tool_could_not_be_installed(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.delenv("SKIPS_ARE_TOLD", raising=False)
+    monkeypatch.setenv("CI", "true")
+    assert in_ci()
+    monkeypatch.setenv("SKIPS_ARE_TOLD", "1")
+    assert not in_ci()
