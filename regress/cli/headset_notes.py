@@ -9,6 +9,7 @@ from regress.runtime.headset.compass import eye_compass
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.looks import levels_of
 from regress.runtime.headset.orientation import told_by_compass, told_orientation
+from regress.runtime.headset.placement import CameraPlacement
 from regress.runtime.headset.points import check_points
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.temporal import TAPS
@@ -39,11 +40,20 @@ def tell_of(footage: Footage, predictor: HeadsetPredictor, *, strict: bool) -> N
         say(note)
 
 
-def level_notes(footage: Footage, predictor: HeadsetPredictor) -> Iterator[str]:
-    """A sentence for each camera whose grey levels are none that people had in training."""
+def level_notes(
+    footage: Footage, predictor: HeadsetPredictor, placement: Mapping[str, CameraPlacement]
+) -> Iterator[str]:
+    """A sentence for each camera whose grey levels are none that people had in training, or are held by a placement."""
     there = dict(zip(footage.cameras, footage.present.T, strict=True))
     for name, known in predictor.model.looks.items():
         if name not in there or not there[name].any():
+            continue
+        held = placement.get(name)
+        if held is not None and held.low is not None:
+            yield (
+                f"{name}: its placement holds the grey levels {held.low:.0f} to {held.high:.0f}, also where the light "
+                "changes; without low and high there each picture is levelled by its own brightness"
+            )
             continue
         low, high = levels_of(footage.pictures[name][there[name]])
         if not (known.low[0] <= low <= known.low[2] and known.high[0] <= high <= known.high[2]):

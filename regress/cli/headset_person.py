@@ -40,6 +40,10 @@ def read_own(predictor: "HeadsetPredictor", path: Path | None, *, still: bool) -
         raise InputError(
             f"{path}: the model has no camera {strangers[0][:60]!r}; it has {', '.join(predictor.sizes)}"
         )
+    looked = any(eye.traced is not None or eye.direct is not None for eye in person.eyes.values())
+    if person.version == 1 and predictor.model.of_many_headsets and looked:
+        say(f"{path} was made by an older version, and its gaze does not count: `regress headset calibrate` again")
+        return person.without_gaze()
     return person
 
 

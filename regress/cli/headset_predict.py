@@ -241,7 +241,7 @@ def predict(
     tell_of(footage, predictor, strict=strict)
     # pictures of a dataset are of many people, each with levels of their own
     levels = {} if dataset is not None else levels_of_cameras(footage, predictor.model.looks, placed)
-    for note in level_notes(footage, predictor):
+    for note in () if dataset is not None else level_notes(footage, predictor, placed):
         say(note)
     footage = levelled(footage, levels)
     neutrals = read_neutrals(

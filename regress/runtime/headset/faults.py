@@ -12,7 +12,7 @@ DARK = 24
 """Grey level that the brightest fiftieth of a black picture stays below.
 
 Rendered views have 124 and more there (41 samples of `tracking3`, black level 8); a lens cap and sensor noise have less
-than 20. An eye in a twentieth of its light has less as well, so that a dark picture is looked at again.
+than 20. An eye in a tenth of its light has less as well, so that a dark picture is looked at again.
 """
 
 _BRIGHT_SHARE = 0.02
@@ -22,16 +22,19 @@ FLAT = 4.0
 """Standard deviation in grey levels below which a picture may show nothing; rendered views have 32 and more."""
 
 _SHAPES = 4.0
-"""How many times a picture's coarse range is that of its grain, if it shows something.
+"""How many times the range of a picture's shapes is that of its grain, if it shows something.
 
-A lens cap with a sensor's noise has 0.8 to 0.9, whatever the noise; a real eye's film in a twentieth of its light 10.
+A lens cap with a sensor's noise has 0.8 to 0.9, whatever the noise; films of real eyes in a tenth of their light 12.
 """
 
-_LEAST_SHAPES = 5.0
-"""Grey levels of coarse range at least: less is a sensor's own pattern."""
+_LEAST_SHAPES = 4.0
+"""Grey levels of shapes at least; those films have 4.9 and 9.8, a cap with a glow of 12 grey levels 3."""
 
 _GRAIN_PX = 1.5
 """Blur that leaves no grain."""
+
+_GLOW = 1 / 8
+"""Blur that leaves a lens's glow and vignette alone, as a share of the picture's width."""
 
 STILL = 0.1
 """Mean difference in grey levels up to which two pictures are the same one.
@@ -83,10 +86,13 @@ def picture_fault(picture: np.ndarray) -> Fault | None:
 
 
 def _shows_shapes(picture: np.ndarray) -> bool:
-    """Whether something coarser than grain is in a picture that is dark, or nearly of one grey."""
+    """Whether something between grain and a glow is in a picture that is dark, or nearly of one grey."""
     values = picture.astype(np.float32)
+    if values.ndim == 3:  # a tint is no shape
+        values = values.mean(axis=2)
     coarse = cv2.GaussianBlur(values, (0, 0), _GRAIN_PX)
-    low, high = np.percentile(coarse, [2, 98])
+    shapes = coarse - cv2.GaussianBlur(coarse, (0, 0), _GLOW * values.shape[1])
+    low, high = np.percentile(shapes, [2, 98])
     return high - low >= max(_LEAST_SHAPES, _SHAPES * float((values - coarse).std()))
 
 

@@ -2,7 +2,7 @@
 
 ::
 
-    {"kind": "headset-person", "version": 1, "network_sha256": "...",
+    {"kind": "headset-person", "version": 2, "network_sha256": "...",
      "rest": {"jawOpen": 0.02}, "full": {"jawOpen": 0.71},
      "eyes": {"left_eye": {"shut_mm": 1.2, "rest_mm": 8.9, "wide_mm": 10.8, "lids": 0.4, "gaze": [...]}},
      "neutral": {"left_eye": "<PNG in base64>"}}
@@ -13,7 +13,7 @@ import hashlib
 import json
 import os
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
@@ -107,7 +107,8 @@ class Person:
     Parameters
     ----------
     kind, version
-        Of this kind of file.
+        Of this kind of file. In those of version 1 the gaze of traced points of a network of many headsets was read by
+        another map: `without_gaze` takes it out.
     network_sha256
         Of the network that read them.
     rest, full
@@ -123,7 +124,7 @@ class Person:
     __pydantic_config__: ClassVar[dict[str, str]] = {"extra": "forbid"}
 
     kind: Literal["headset-person"] = "headset-person"
-    version: Literal[1] = 1
+    version: Literal[1, 2] = 2
     network_sha256: Annotated[str, Len(0, 64)] = ""
     rest: dict[str, Annotated[float, Ge(0), Le(HIGHEST_KEPT)]] = field(default_factory=dict)
     full: dict[str, Annotated[float, Ge(LEAST_SPAN), Le(1)]] = field(default_factory=dict)
@@ -132,6 +133,11 @@ class Person:
         field(default_factory=dict)
     )
     seen_as: Annotated[str, Len(0, 64)] | None = None
+
+    def without_gaze(self) -> "Person":
+        """The same person, of whose gaze nothing is known."""
+        eyes = {name: replace(eye, traced=None, direct=None, traced_share=0.0) for name, eye in self.eyes.items()}
+        return replace(self, eyes=eyes)
 
     def __post_init__(self) -> None:
         """Refuse shapes that there are not."""

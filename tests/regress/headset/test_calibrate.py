@@ -199,7 +199,7 @@ def test_a_persons_file_is_read_as_it_was_written(person: Path, tmp_path: Path):
         ),
         ({"network_sha256": "0" * 64}, "another network"),
         ({"more": 1}, "more"),
-        ({"version": 2}, "version"),
+        ({"version": 3}, "version"),
     ],
 )
 def test_files_of_other_things_are_refused(run, tmp_path: Path, person: Path, change: dict, said: str):
