@@ -256,10 +256,10 @@ def test_each_line_leaves_before_the_next_arrives(quick_model: Model):
 
 def test_a_pipe_finds_the_neutral_face_while_it_runs(quick_model: Model):
     rng = np.random.default_rng(5)
-    frames = in_pictures(rng, np.stack([drawn_face()] * 70))
+    frames = in_pictures(rng, np.stack([drawn_face()] * 320))
     said: list[str] = []
     rows = list(
-        stream_csv(_lines(frames, np.arange(70) / 30), quick_model, Output(), auto=True, say=said.append)
+        stream_csv(_lines(frames, np.arange(320) / 30), quick_model, Output(), auto=True, say=said.append)
     )
     assert len(said) == 1
     assert "neutral face found" in said[0]
@@ -271,7 +271,7 @@ def test_a_pipe_finds_the_neutral_face_while_it_runs(quick_model: Model):
 
 def test_the_trust_is_in_the_networks_that_answer(quick_model: Model):
     """Those that were calibrated on the way, from the frame on of which it is told."""
-    faces = in_pictures(np.random.default_rng(5), np.stack([drawn_face()] * 70))
+    faces = in_pictures(np.random.default_rng(5), np.stack([drawn_face()] * 320))
     said: list[str] = []
     chain = landmark_chain(quick_model, confident=True, auto=True, say=said.append)
     samples = [Sample(label=str(row), time_s=row / 30, points=face) for row, face in enumerate(faces)]

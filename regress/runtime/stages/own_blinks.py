@@ -14,14 +14,16 @@ import numpy as np
 from annotated_types import Interval
 
 from facegen.conventions import BLINK_INDICES
+from regress.runtime.frame_noise import SECOND_DIFFERENCE
 from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import DelayingStage, Stage
 
 SIDE_S = 0.4
 """Before and after its peak, within which a blink has begun and is over: blinks take 0.1 to 0.4 s (docs/motion.md)."""
 
-LEAST_RISE = 0.15
-"""Of a reading, from an open eye to the peak: less is noise, or a network that sees no lids."""
+LEAST_RISE, _RISE_NOISES, _RISE_OF_ANY = 0.15, 8.0, 0.02
+"""Of a reading, from an open eye to the peak: less is noise, or a network that sees no lids. Where readings have little
+noise, so many standard deviations of it are enough, down to the last: a detector may hardly close lids, and be sure."""
 
 FEWEST = 8
 """Blinks that must have been seen. Many are not full: at ten starts in a recorded speech the fullest of the first five
@@ -42,8 +44,15 @@ OPEN = 0.1
 """Reading up to which any eye counts as open, and nothing is stretched: its noise stays what it was. An eye that reads
 more between its blinks counts as open up to there."""
 
-MOST = 3.0
-"""Factor on what is above an open eye, at most; beyond it half-shut and shut eyes read alike."""
+_OPEN_NOISES, _OPEN_OF_ANY = 4.0, 0.01
+"""The same of an eye with little noise, and no less."""
+
+MOST, UTMOST, _STRETCHED_NOISE = 3.0, 10.0, 0.06
+"""Factor on what is above an open eye, at most; beyond it half-shut and shut eyes read alike. With little noise it may
+be up to the second, as long as noise is stretched to no more than the third."""
+
+_JUMPS, _FEWEST_JUMPS = 900, 30
+"""Second differences of an eye's readings of which the median tells its noise, half a minute; none is told by fewer."""
 
 TOLD_FROM = 1.2
 """Factor from which a person is told."""
@@ -60,18 +69,21 @@ class Ends:
     open
         From here on readings are stretched.
     full
-        What becomes 1, as far as `MOST` goes.
+        What becomes 1, as far as ``most`` goes.
+    most
+        Factor at most: `MOST`, and more by little noise.
     """
 
     __pydantic_config__: ClassVar[dict[str, str]] = {"extra": "forbid"}
 
     open: Reading
     full: Reading
+    most: Annotated[float, Interval(ge=1, le=UTMOST)] = MOST
 
     @property
     def factor(self) -> float:
         """On what is above ``open``."""
-        return float(np.clip((1 - self.open) / max(self.full - self.open, 1e-9), 1.0, MOST))
+        return float(np.clip((1 - self.open) / max(self.full - self.open, 1e-9), 1.0, self.most))
 
     def stretched(self, reading: float) -> float:
         """A reading in [0, 1]; NaN stays."""
@@ -108,6 +120,7 @@ class BlinkWatch:
         self.ends = before
         self._times: deque[float] = deque()
         self._readings: deque[float] = deque()
+        self._jumps: deque[float] = deque(maxlen=_JUMPS)
         self._judged_s = -np.inf
 
     def step(self, time_s: float, reading: float) -> bool:
@@ -119,6 +132,8 @@ class BlinkWatch:
             return False
         self._times.append(time_s)
         self._readings.append(reading)
+        if len(self._readings) > 2:
+            self._jumps.append(abs(self._readings[-3] - 2 * self._readings[-2] + reading))
         while self._times[0] < time_s - 2 * SIDE_S:
             self._times.popleft()
             self._readings.popleft()
@@ -132,13 +147,34 @@ class BlinkWatch:
             self._judged_s = times[row]
             before = readings[: row + 1][times[: row + 1] >= times[row] - SIDE_S]
             after = readings[row:][times[row:] <= times[row] + SIDE_S]
-            if _is_blink(before, after) and not _is_spike(times, readings, row, _foot(before, after)):
+            if _is_blink(before, after) and self._counts(times, row, _foot(before, after)):
                 self.peaks.append(float(readings[row]))
                 self.feet.append(_foot(before, after))
                 if len(self.peaks) >= FEWEST:
-                    self.ends = Ends(open=max(OPEN, float(np.median(self.feet))), full=_fullest(self.peaks))
+                    self.ends = self._found()
                 return True
         return False
+
+    def _counts(self, times: np.ndarray, row: int, foot: float) -> bool:
+        """Whether a blink is more than this eye's noise, and no glitch."""
+        readings = np.array(self._readings)
+        if readings[row] - foot < self._by_noise(_RISE_NOISES, _RISE_OF_ANY, LEAST_RISE):
+            return False
+        return not _is_spike(times, readings, row, foot)
+
+    def _found(self) -> Ends:
+        opened = max(self._by_noise(_OPEN_NOISES, _OPEN_OF_ANY, OPEN), float(np.median(self.feet)))
+        most = float(np.clip(_STRETCHED_NOISE / max(self._noise, 1e-9), MOST, UTMOST))
+        return Ends(open=opened, full=_fullest(self.peaks), most=most)
+
+    def _by_noise(self, noises: float, least: float, most: float) -> float:
+        """So many standard deviations of the eye's noise, between two readings."""
+        return float(np.clip(noises * self._noise, least, most))
+
+    @property
+    def _noise(self) -> float:
+        """Standard deviation of a reading (`regress.runtime.frame_noise`); much, while few are seen."""
+        return np.inf if len(self._jumps) < _FEWEST_JUMPS else np.median(self._jumps) / SECOND_DIFFERENCE
 
 
 def _is_spike(times: np.ndarray, readings: np.ndarray, row: int, foot: float) -> bool:
@@ -158,10 +194,10 @@ def _fullest(peaks: Sequence[float]) -> float:
 
 
 def _is_blink(before: np.ndarray, after: np.ndarray) -> bool:
-    """Whether readings rise to one, the last of the first and the first of the second, and fall again."""
+    """Whether readings rise to the last of the first and the first of the second, and fall again."""
     peak, foot = before[-1], _foot(before, after)
     first = bool((before[:-1] < peak).all() and (after <= peak).all())
-    return first and peak - foot >= LEAST_RISE and foot <= peak / 2
+    return first and peak - foot >= _RISE_OF_ANY and foot <= peak / 2
 
 
 class OwnBlinks(Stage):
