@@ -1,10 +1,9 @@
 """Decides whether browsers can be asked to load somebody's glTF file: bounded, whole, nothing in it that acts."""
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import chain
-from typing import Any, TypeVar
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -12,12 +11,9 @@ from facegen.formats.gltf_container import BIN, Chunks
 from facegen.formats.picture_size import picture_size
 from facegen.refusals import refusal
 from room.errors import FormatError
-from room.gltf.document import Accessor, Document, View
+from room.gltf.document import Accessor, Document, View, named
 from room.gltf.extensions import READ, check_extensions
-
-MOST_NUMBERS = 60_000_000
-"""In all that a browser makes arrays of, zeros that cost the file nothing among them, and as often as it does: 240 MB.
-Our avatars have 2,400,000, nearly all for 52 shapes; VRMs draw ten parts from the same shapes."""
+from room.gltf.numbers import COMPONENTS, check_numbers
 
 MOST_PICTURES = 64
 """Textures of one file; VRMs have up to twenty."""
@@ -29,12 +25,9 @@ MOST_TEXTURE_PIXELS = 64 * 1024**2
 """Of all textures together, 16 of 2,048 x 2,048: 350 MB on the graphics card."""
 
 _COMPONENT_BYTES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
-_COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _TRIANGLES, _STRIPS = 4, (5, 6)
 _PICTURES = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"RIFF")
 """How PNG, JPEG and WebP begin. SVG, which can hold scripts, begins as text."""
-
-Found = TypeVar("Found")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,7 +79,7 @@ def check_gltf(document: dict[str, Any], chunks: Chunks, *, where: str, bounds: 
         _check_views(told, len(binary))
         _check_accessors(told)
         _check_meshes(told, _drawn(told, bounds.nodes), bounds)
-        _check_numbers(told)
+        check_numbers(told)
         _check_pictures(told, binary)
     except FormatError as error:
         raise FormatError(f"{where} {error}") from None
@@ -119,7 +112,7 @@ def _check_views(told: Document, binary_bytes: int) -> None:
     if len(told.buffers) > 1 or any(buffer.byteLength > binary_bytes for buffer in told.buffers):
         raise FormatError("is damaged: its binary part is not the one that its document tells of")
     for number, view in enumerate(told.bufferViews):
-        buffer = _of(told.buffers, view.buffer, "buffer")
+        buffer = named(told.buffers, view.buffer, "buffer")
         if view.byteOffset + view.byteLength > buffer.byteLength:
             raise FormatError(f"is damaged: its buffer view {number} ends behind the file")
 
@@ -129,7 +122,7 @@ def _check_accessors(told: Document) -> None:
         size = _COMPONENT_BYTES.get(accessor.componentType)
         if size is None:
             raise FormatError(f"is damaged: its accessor {place} is of no kind that glTF has")
-        components = _COMPONENTS[accessor.type]
+        components = COMPONENTS[accessor.type]
         if accessor.bufferView is not None:
             _hold(told, place, accessor.bufferView, accessor.byteOffset, accessor.count * components * size)
         if accessor.sparse is not None:
@@ -148,7 +141,7 @@ def _check_sparse(told: Document, place: int, accessor: Accessor, element_bytes:
 
 def _hold(told: Document, place: int, view: int, offset: int, length: int) -> None:
     """Refuse an accessor that reads behind its view; strides make it longer, which the page's reader sees."""
-    held: View = _of(told.bufferViews, view, "buffer view")
+    held: View = named(told.bufferViews, view, "buffer view")
     if offset + length > held.byteLength:
         raise FormatError(f"is damaged: its accessor {place} reads behind its buffer view")
 
@@ -166,7 +159,7 @@ def _drawn(told: Document, most_nodes: int) -> Counter[int]:
     above: set[int] = set()
     for node in told.nodes:
         for child in node.children:
-            _of(told.nodes, child, "node")
+            named(told.nodes, child, "node")
             if child in above:
                 raise FormatError(f"is damaged: its node {child} hangs on two others")
             above.add(child)
@@ -181,11 +174,11 @@ def _drawn(told: Document, most_nodes: int) -> Counter[int]:
 def _check_meshes(told: Document, drawn: Counter[int], bounds: Bounds) -> None:
     triangles = primitives = 0
     for number, times in drawn.items():
-        for primitive in _of(told.meshes, number, "mesh").primitives:
+        for primitive in named(told.meshes, number, "mesh").primitives:
             vertices = (
                 primitive.attributes.get("POSITION") if primitive.indices is None else primitive.indices
             )
-            count = 0 if vertices is None else _of(told.accessors, vertices, "accessor").count
+            count = 0 if vertices is None else named(told.accessors, vertices, "accessor").count
             primitives += times
             triangles += times * (
                 count // 3 if primitive.mode == _TRIANGLES else count * (primitive.mode in _STRIPS)
@@ -200,39 +193,6 @@ def _check_meshes(told: Document, drawn: Counter[int], bounds: Bounds) -> None:
         raise FormatError(
             f"is drawn in {primitives:,} parts, and at most {bounds.parts:,} are; join meshes of one material"
         )
-
-
-def _check_numbers(told: Document) -> None:
-    """Refuse more numbers than browsers should be asked for, also where nothing is ever seen of them."""
-    numbers = max(
-        sum(_numbers(accessor) for accessor in told.accessors),
-        sum(_numbers(_of(told.accessors, index, "accessor")) for index in _read(told)),
-    )
-    if numbers > MOST_NUMBERS:
-        raise FormatError(
-            f"has {numbers:,} numbers in its meshes, shapes, bones and movements, and at most {MOST_NUMBERS:,} are "
-            "loaded; export it with fewer vertices or shapes, and without animations"
-        )
-
-
-def _numbers(accessor: Accessor) -> int:
-    return accessor.count * _COMPONENTS[accessor.type]
-
-
-def _read(told: Document) -> Iterator[int]:
-    """The accessors that a reader makes arrays of, each as often as it is told to."""
-    for primitive in chain.from_iterable(mesh.primitives for mesh in told.meshes):
-        yield from primitive.attributes.values()
-        yield from chain.from_iterable(target.values() for target in primitive.targets)
-        if primitive.indices is not None:
-            yield primitive.indices
-    for skin in told.skins:
-        if skin.inverseBindMatrices is not None:
-            yield skin.inverseBindMatrices
-    for animation in told.animations:
-        moved = (_of(animation.samplers, channel.sampler, "sampler") for channel in animation.channels)
-        for sampler in chain(animation.samplers, moved):
-            yield from (sampler.input, sampler.output)
 
 
 def _check_pictures(told: Document, binary: bytes) -> None:
@@ -255,7 +215,7 @@ def _check_pictures(told: Document, binary: bytes) -> None:
 
 def _sizes(told: Document, binary: bytes) -> Iterator[tuple[int, int]]:
     for number, image in enumerate(told.images):
-        view: View = _of(told.bufferViews, image.bufferView, "buffer view")
+        view: View = named(told.bufferViews, image.bufferView, "buffer view")
         content = binary[view.byteOffset : view.byteOffset + view.byteLength]
         size = picture_size(content) if content.startswith(_PICTURES) else None
         if size is None:
@@ -263,9 +223,3 @@ def _sizes(told: Document, binary: bytes) -> Iterator[tuple[int, int]]:
                 f"has a texture ({number}) that is no PNG, JPEG or WebP that can be read; export it as one of these"
             )
         yield size
-
-
-def _of(found: Sequence[Found], index: int, what: str) -> Found:
-    if index >= len(found):
-        raise FormatError(f"is damaged: it names {what} {index}, and has {len(found)}")
-    return found[index]

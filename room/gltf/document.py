@@ -5,12 +5,16 @@ References
 .. [1] Khronos Group, "glTF 2.0 Specification", 5 properties reference.
 """
 
-from typing import Annotated, Literal
+from collections.abc import Sequence
+from typing import Annotated, Literal, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from room.errors import FormatError
+
 Index = Annotated[int, Field(ge=0)]
 Count = Annotated[int, Field(ge=1)]
+Found = TypeVar("Found")
 
 
 class _Record(BaseModel):
@@ -132,3 +136,16 @@ class Document(_Record):
     animations: list[Animation] = []
     extensionsUsed: list[str] = []
     extensionsRequired: list[str] = []
+
+
+def named(found: Sequence[Found], index: int, what: str) -> Found:
+    """What a document names by its number.
+
+    Raises
+    ------
+    FormatError
+        If it has none of that number.
+    """
+    if index >= len(found):
+        raise FormatError(f"is damaged: it names {what} {index}, and has {len(found)}")
+    return found[index]

@@ -20,8 +20,9 @@ from room.avatars.check import (
 )
 from room.avatars.pieces import PIECE_BYTES, pack_piece, read_piece
 from room.errors import FormatError, NotAllowed
-from room.gltf.check import MOST_NUMBERS, MOST_PICTURES, MOST_SIDE_PIXELS, MOST_TEXTURE_PIXELS
+from room.gltf.check import MOST_PICTURES, MOST_SIDE_PIXELS, MOST_TEXTURE_PIXELS
 from room.gltf.extensions import HOW
+from room.gltf.numbers import MOST_NUMBERS
 from room.protocol.answers import Changed, Left, Notice
 from room.server.application import STATIC
 from room.server.limits import MOST_UPLOADS_A_ROOM, UPLOADS_BURST
