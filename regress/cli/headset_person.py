@@ -42,7 +42,9 @@ def read_own(predictor: "HeadsetPredictor", path: Path | None, *, still: bool) -
         )
     looked = any(eye.traced is not None or eye.direct is not None for eye in person.eyes.values())
     if person.version == 1 and predictor.model.of_many_headsets and looked:
-        say(f"{path} was made by an older version, and its gaze does not count: `regress headset calibrate` again")
+        say(
+            f"{path} was made by an older version, and its gaze does not count: `regress headset calibrate` again"
+        )
         return person.without_gaze()
     return person
 

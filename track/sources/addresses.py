@@ -78,7 +78,7 @@ def is_local(host: str) -> bool:
 
 def _go_past_proxies(host: str) -> None:
     """FFmpeg sends all addresses through the proxy of ``http_proxy`` but those of ``no_proxy``."""
-    spared = os.environ.get("no_proxy", "")
+    spared = os.environ.get("no_proxy") or os.environ.get("NO_PROXY", "")
     if is_local(host) and os.environ.get("http_proxy") and host not in spared.split(","):
         os.environ["no_proxy"] = ",".join(filter(None, (spared, host)))
 

@@ -63,16 +63,21 @@ class Backlog:
 
     @property
     def gap_s(self) -> float:
-        """What it lets pass without a picture, lately: its step, or from burst to burst; infinite as `step_s`."""
-        if self._gap_s is None:
+        """What it lets pass without a picture, lately: its step, or from burst to burst; infinite as `step_s`.
+
+        One stall is no manner of coming: the longest gap does not count.
+        """
+        gap_s = self._gap_s  # another thread may forget it meanwhile
+        if gap_s is None:
             gaps_s = sorted(self._gaps_s)
+            gaps_s = gaps_s[:-1] or gaps_s
             enough_s = _GAP_SHARE * sum(gaps_s)
             passed_s = accumulate(gaps_s)
-            self._gap_s = next(
-                (gap_s for gap_s, until_s in zip(gaps_s, passed_s, strict=True) if until_s >= enough_s),
+            self._gap_s = gap_s = next(
+                (each_s for each_s, until_s in zip(gaps_s, passed_s, strict=True) if until_s >= enough_s),
                 float("inf"),
             )
-        return self._gap_s
+        return gap_s
 
     @property
     def together_s(self) -> float:

@@ -10,7 +10,7 @@ import cv2
 from facegen.formats.picture_size import MOST_PIXELS
 from track.errors import CameraError
 
-_SUFFIX = re.compile(r"(?:,[a-z]+=[^,=]*)+\Z")
+_SUFFIX = re.compile(r"(?:,\s*[A-Za-z]+\s*=[^,=]*)+,?\s*\Z")
 
 _AUTO = "auto"
 
@@ -70,7 +70,9 @@ def split_mode(text: str) -> tuple[str, CameraMode]:
     if found is None:
         return text, CameraMode()
     camera = text[: found.start()]
-    words = [word.split("=") for word in found[0][1:].split(",")]
+    settings = [word.strip() for word in found[0][1:].split(",")]
+    words = [[side.strip() for side in word.split("=")] for word in settings if word]
+    words = [[key.lower(), written] for key, written in words]
     if not camera.isdecimal() and not any(key in _READERS for key, _ in words):
         return text, CameraMode()
     mode = CameraMode()

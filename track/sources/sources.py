@@ -1,6 +1,5 @@
 """The table of sources, and the choice among them by what a person wrote; a new one is a module and a line here."""
 
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -62,10 +61,6 @@ class SourceKind:
     matches: Callable[[str], bool]
     open: Callable[[str, Pace, CameraMemory], Source]
     live: bool = False
-
-
-_NUMBER = re.compile(r"(?:/dev/video)?0*(\d+)")
-"""A webcam's number, or its device on Linux."""
 
 
 SOURCES: dict[str, SourceKind] = {
@@ -135,7 +130,7 @@ def open_capture(
     CameraError
         Where one cannot be opened, is asked for in two modes, or two are the same camera.
     """
-    parts = {name: _parts(text) for name, text in texts.items()}
+    parts = _spelt_alike({name: _parts(text) for name, text in texts.items()})
     # two cameras may be halves of one source, which is opened once
     halves = {name: (source, half) for name, (source, half, _) in parts.items()}
     _refuse_same(halves)
@@ -169,6 +164,19 @@ def _parts(text: str) -> tuple[str, str, CameraMode]:
         return source, half, CameraMode()
     source, mode = _with_mode(source)
     return source, half, mode
+
+
+def _spelt_alike(parts: Mapping[str, tuple[str, str, CameraMode]]) -> dict[str, tuple[str, str, CameraMode]]:
+    """Parts whose webcams are spelt as where they come first: 0 and /dev/video0 are opened once."""
+    first: list[str] = []
+    alike = {}
+    for name, (source, half, mode) in parts.items():
+        if _kind_of(source) is SOURCES["webcam"]:
+            found = [other for other in first if same_camera(source, other)]
+            first += [] if found else [source]
+            source = (found or [source])[0]
+        alike[name] = source, half, mode
+    return alike
 
 
 def _with_mode(text: str) -> tuple[str, CameraMode]:
@@ -211,8 +219,7 @@ def _refuse_same(halves: Mapping[str, tuple[str, str]]) -> None:
     named: dict[tuple[str, str], list[str]] = {}
     for name, (text, half) in halves.items():
         if _kind_of(text).live:
-            number = _NUMBER.fullmatch(text.strip())
-            named.setdefault((f"camera {number[1]}" if number else text, half), []).append(name)
+            named.setdefault((text, half), []).append(name)
     for (text, half), names in named.items():
         if len(names) > 1:
             told = f"{', '.join(names[:-1])} and {names[-1]} are the same, {_shown(text)}"

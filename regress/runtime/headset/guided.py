@@ -159,10 +159,12 @@ def _strange(at_rest: Mapping[str, float]) -> list[str]:
     Raises
     ------
     InputError
-        Where these are more than `_MISREAD`, or eyes are shut: then nobody was at rest.
+        Where these are more than `_MISREAD`, eyes are shut, or one is above `HIGHEST_KEPT`: then nobody was at rest,
+        or rest would still show.
     """
     high = sorted((name for name, value in at_rest.items() if value > HIGHEST_REST), key=at_rest.get)[::-1]
-    if len(high) > _MISREAD or any(BLENDSHAPE_INDEX[name] in BLINK_INDICES for name in high):
+    shut = any(BLENDSHAPE_INDEX[name] in BLINK_INDICES for name in high)
+    if len(high) > _MISREAD or shut or (high and at_rest[high[0]] > HIGHEST_KEPT):
         worst = high[0]
         raise InputError(
             f"--{REST}: {worst} reads {at_rest[worst]:.2f} there; at most {HIGHEST_REST} is a resting face"

@@ -136,7 +136,9 @@ class Person:
 
     def without_gaze(self) -> "Person":
         """The same person, of whose gaze nothing is known."""
-        eyes = {name: replace(eye, traced=None, direct=None, traced_share=0.0) for name, eye in self.eyes.items()}
+        eyes = {
+            name: replace(eye, traced=None, direct=None, traced_share=0.0) for name, eye in self.eyes.items()
+        }
         return replace(self, eyes=eyes)
 
     def __post_init__(self) -> None:

@@ -128,7 +128,8 @@ def traced_eyes(
     rows = _rows(footage, targets or {})
     clock = FrameClock()
     seconds = np.array([clock.step(sample.time_s) for sample in footage.samples()])
-    time_s = np.cumsum(seconds)
+    # the clock's steps are bounded for filters, and a slow film's neighbours are no moment of a target's
+    time_s = np.cumsum(seconds) if footage.time_s is None else np.asarray(footage.time_s, dtype=np.float64)
     targets_deg = np.array(list(rows.values())).reshape(-1, 2)
     pictures = {name: footage.pictures[name] for name in cameras}
     estimates, traced = predictor.graph.see(pictures, present=footage.present)
