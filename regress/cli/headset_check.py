@@ -84,7 +84,7 @@ def check(
     for one in judged:
         lines = [finding.sentence for finding in one.findings]
         if not as_json:
-            for line in lines or [_fits(one, predictor)]:
+            for line in lines or [_fits(one, predictor, footage[one.camera])]:
                 typer.echo(line)
     if as_json:
         typer.echo(
@@ -96,7 +96,7 @@ def check(
                             {"misfit": finding.misfit.name.lower(), "sentence": finding.sentence}
                             for finding in one.findings
                         ],
-                        "looks": vars(one.looks),
+                        "looks": None if one.looks is None else vars(one.looks),
                         "placement": vars(one.placement),
                     }
                     for one in judged
@@ -105,9 +105,10 @@ def check(
                 allow_nan=False,
             )
         )
+    seen = [one for one in judged if one.looks is not None]
     if out is not None:
         aspects = {name: pictures.shape[2] / pictures.shape[1] for name, pictures in footage.items()}
-        cameras = {one.camera: replace(one.placement, aspect=aspects[one.camera]) for one in judged}
+        cameras = {one.camera: replace(one.placement, aspect=aspects[one.camera]) for one in seen}
         found_with = predictor.model
         write_placement(
             out,
@@ -118,17 +119,26 @@ def check(
                 network_sha256=found_with.network_sha256,
             ),
         )
-        say(f"placement in {out}{_what_next(predictor, judged, footage, out)}")
+        say(f"placement in {out}{_what_next(predictor, seen, footage, out)}")
     if sheet is not None:
-        write_whole(sheet, fitness_sheet(predictor, footage, judged))
+        write_whole(sheet, fitness_sheet(predictor, footage, seen))
         say(f"sheet in {sheet}")
 
 
-def _fits(one: "CameraFitness", predictor: "HeadsetPredictor") -> str:
+def _fits(one: "CameraFitness", predictor: "HeadsetPredictor", pictures: "np.ndarray") -> str:
     """That nothing is wrong, as far as anybody looked."""
-    if one.found is None and one.camera not in predictor.typical:
+    judged = one.camera in predictor.typical and _is_taken(pictures, predictor.sizes[one.camera])
+    if one.found is None and not judged:
         return f"{one.camera}: its light fits; how it lies is not judged, so look at --sheet"
     return f"{one.camera}: its frames fit"
+
+
+def _is_taken(pictures: "np.ndarray", view: tuple[int, int]) -> bool:
+    """Whether `predict` takes pictures (n, h, w) without a placement."""
+    from regress.runtime.headset.pictures import has_shape_of, whole_of_shape
+
+    size = pictures.shape[2], pictures.shape[1]
+    return has_shape_of(size, view) or whole_of_shape(size, view) is not None
 
 
 def _what_next(
@@ -139,14 +149,13 @@ def _what_next(
 ) -> str:
     """What to do with a placement that was written."""
     from regress.runtime.headset.misfits import Misfit
-    from regress.runtime.headset.pictures import has_shape_of
-    from regress.runtime.headset.placement import CameraPlacement
+    from regress.runtime.headset.placement import whole_view
 
-    placed = any(
-        one.placement != CameraPlacement()
-        or not has_shape_of(footage[one.camera].shape[:0:-1], predictor.sizes[one.camera])
-        for one in judged
-    )
+    placed = False
+    for one in judged:
+        pictures, view = footage[one.camera], predictor.sizes[one.camera]
+        whole = replace(whole_view((pictures.shape[2], pictures.shape[1]), view), aspect=None)
+        placed |= one.placement != whole or not _is_taken(pictures, view)
     if placed:
         return f"; look at --sheet, then give it to `regress headset predict --placement {out}`"
     if any(found.misfit in (Misfit.TURNED, Misfit.LOST) for one in judged for found in one.findings):

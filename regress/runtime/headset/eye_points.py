@@ -76,6 +76,40 @@ class EyePoints:
             usual=usual,
         )
 
+    @property
+    def followed(self) -> list[int]:
+        """Columns that stay on the same pixels of a picture where the view is moved."""
+        return self.upper + self.lower + self.iris
+
+    @property
+    def ends(self) -> tuple[int, int]:
+        """Columns whose distance is the eye's width."""
+        return self.upper[0], self.upper[-1]
+
+    def seen_from_usual(self, seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Turn and size (2, 2), and shift (2,), that take the usual eye to the one that is seen (n, P, 2).
+
+        The size is the iris's, which is nearly the same in all people; the place is that of the lids' middle, and
+        upright is the line between the eye's corners.
+        """
+        size = np.nanmedian(_diameters(seen[:, self.iris])) / _diameters(self.usual[None, self.iris])[0]
+        lids = self.upper + self.lower
+        middle = np.nanmedian(seen[:, lids], axis=0)
+        corners = [0, len(self.upper) - 1]
+        turned = _angle(middle[corners]) - _angle(self.usual[lids][corners])
+        turn = size * np.array([[np.cos(turned), -np.sin(turned)], [np.sin(turned), np.cos(turned)]])
+        return turn, middle.mean(axis=0) - turn @ self.usual[lids].mean(axis=0)
+
+
+def _diameters(outlines: np.ndarray) -> np.ndarray:
+    """(n,) of irises (n, k, 2): their points lie on ellipses, evenly."""
+    return 2 * np.linalg.norm(outlines - outlines.mean(axis=1, keepdims=True), axis=2).mean(axis=1)
+
+
+def _angle(corners: np.ndarray) -> float:
+    across, down = corners[1] - corners[0]
+    return float(np.arctan2(down, across))
+
 
 def traces_an_eye(predictor: HeadsetPredictor, camera: str) -> bool:
     """Whether a camera's points are those of one eye: pupil, iris, both lids."""

@@ -12,12 +12,14 @@ from regress.runtime.headset.faults import Fault
 from regress.runtime.headset.footage import Footage
 from regress.runtime.headset.found_placement import FoundPlacement
 from regress.runtime.headset.looks import MEASURED_FRAMES, TakeLooks, looks_of
-from regress.runtime.headset.misfits import Finding, Misfit, light_findings, lost, place_findings, turned
+from regress.runtime.headset.misfits import Finding, Misfit, few, light_findings
+from regress.runtime.headset.misplacement import lost, place_findings, quarters, turned
+from regress.runtime.headset.mouth_points import MouthPoints
 from regress.runtime.headset.orientation import told_orientation
 from regress.runtime.headset.parts import mirror_partner
-from regress.runtime.headset.pictures import has_shape_of
-from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.placement_search import find_placement
+from regress.runtime.headset.pictures import fit_picture, has_shape_of, whole_of_shape
+from regress.runtime.headset.placement import CameraPlacement, whole_view
+from regress.runtime.headset.placement_search import CALM_MOUTH, find_placement
 from regress.runtime.headset.predictor import HeadsetPredictor
 
 FEWEST_FRAMES = 20
@@ -32,7 +34,7 @@ _COMPARED, _COMPARED_PX = 32, 160
 _BOTH = 1.8
 """Width over height from which a picture may be two, side by side."""
 
-_PLACES = (Misfit.MIRRORED, Misfit.UPSIDE_DOWN, Misfit.SIDEWAYS, Misfit.PLACED, Misfit.LOST)
+_PLACES = frozenset((Misfit.MIRRORED, Misfit.UPSIDE_DOWN, Misfit.SIDEWAYS, Misfit.PLACED, Misfit.LOST))
 """What a placement makes good."""
 
 
@@ -50,9 +52,9 @@ class CameraFitness:
     camera
         Its name.
     looks
-        Of its frames where the network looks, levels as they are.
+        Of its frames where the network looks, levels as they are; None of too few.
     found
-        Where the network finds the eye; None where it does not trace one, as in a mouth's picture.
+        Where the network finds the eye or the mouth; None where it traces neither, or in too few frames.
     placement
         What `predict` should take, levels included.
     findings
@@ -60,7 +62,7 @@ class CameraFitness:
     """
 
     camera: str
-    looks: TakeLooks
+    looks: TakeLooks | None
     found: FoundPlacement | None
     placement: CameraPlacement
     findings: tuple[Finding, ...]
@@ -77,63 +79,81 @@ def judge(predictor: HeadsetPredictor, footage: Mapping[str, np.ndarray]) -> lis
     Raises
     ------
     InputError
-        Where the model does not say how its training looked, or a camera has too few frames.
+        Where the model does not say how its training looked, or all cameras have too few frames.
     """
-    for name, pictures in footage.items():
+    for name in footage:
         if name not in predictor.model.looks:
             raise InputError(
                 f"the model does not say how the pictures of {name} looked in training; train it with this version"
             )
-        if len(pictures) < FEWEST_FRAMES:
-            usable = f"{len(pictures)} usable frame{'' if len(pictures) == 1 else 's'}"
-            raise InputError(f"{name} has {usable}; at least {FEWEST_FRAMES} are needed, best 100-300")
-    told = _told_by_typical(predictor, footage)
-    judged = [_judge_camera(predictor, name, pictures, told.get(name)) for name, pictures in footage.items()]
-    return _told_apart(judged, footage)
+    fewer = {name: pictures for name, pictures in footage.items() if len(pictures) < FEWEST_FRAMES}
+    enough = {name: pictures for name, pictures in footage.items() if name not in fewer}
+    found = {name: few(name, len(pictures), FEWEST_FRAMES) for name, pictures in fewer.items()}
+    if not enough:
+        raise InputError("; ".join(one.sentence for one in found.values()))
+    told = _told_by_typical(predictor, enough)
+    judged = [_judge_camera(predictor, name, pictures, told.get(name)) for name, pictures in enough.items()]
+    judged = {one.camera: one for one in _told_apart(judged, enough)}
+    for name, finding in found.items():
+        judged[name] = CameraFitness(
+            camera=name, looks=None, found=None, placement=CameraPlacement(), findings=(finding,)
+        )
+    return [judged[name] for name in footage]
 
 
 def _judge_camera(
     predictor: HeadsetPredictor, name: str, pictures: np.ndarray, told: str | None
 ) -> CameraFitness:
     known = predictor.model.looks[name]
-    found = find_placement(predictor, name, pictures) if traces_an_eye(predictor, name) else None
-    placement = CameraPlacement() if found is None else found.placement
+    mouth = MouthPoints.of(predictor, name)
+    traces = mouth is not None or traces_an_eye(predictor, name)
+    found = find_placement(predictor, name, pictures) if traces else None
     width, height = predictor.sizes[name]
+    size = (pictures.shape[2], pictures.shape[1])
+    # as `predict` takes them that nobody placed
+    whole = replace(whole_view(size, (width, height)), aspect=None)
+    placement = whole if found is None else found.placement
     measured = pictures[even_rows(len(pictures), MEASURED_FRAMES)]
     looks = looks_of(np.stack([placement.view(one, width=width, height=height) for one in measured]))
     # what lies outside of the picture is repeated and moves with its edge: a rim and the lamps are seen in all of it
-    whole = looks_of(pictures)
-    looks = replace(looks, rim=whole.rim, flicker=whole.flicker, saturated=whole.saturated)
+    seen = looks_of(pictures)
+    looks = replace(looks, rim=seen.rim, flicker=seen.flicker, saturated=seen.saturated)
     findings = [*light_findings(name, looks, known)]
     if found is not None:
-        points = EyePoints.of(predictor, name)
-        size = (pictures.shape[2], pictures.shape[1])
+        points = mouth or EyePoints.of(predictor, name)
         # a rim that training did not have makes mean pictures look like anything
         rimmed = any(one.misfit is Misfit.RIM for one in findings)
-        told = None if rimmed else told
+        # and of a mouth, moved by a fifth, as of a turned one; the search itself sees which way it stands
+        turns_only = mouth is not None and not found.lost and "its own" in (told or "")
+        sure = mouth is not None and found.unrest < CALM_MOUTH and not found.lost
+        told = None if rimmed or sure or turns_only else told
         findings += place_findings(name, placement, points, picture=size, view=(width, height), told=told)
         if found.lost:
-            findings.append(lost(name))
+            findings.append(lost(name, "eye" if mouth is None else "mouth"))
     elif told is not None:
         findings.append(turned(name, told))
-    misplaced = any(one.misfit in _PLACES for one in findings)
-    if has_shape_of((pictures.shape[2], pictures.shape[1]), (width, height)) and not misplaced:
+    misfits = {one.misfit for one in findings}
+    if mouth is not None and not misfits & {Misfit.PLACED, Misfit.LOST}:
+        placement = replace(whole, roll_deg=90.0 * quarters(placement))
+    elif has_shape_of(size, (width, height)) and not misfits & _PLACES:
         # within what people of the training differ by: a network that knows them gains nothing by being moved
-        placement = CameraPlacement()
+        placement = whole
     return CameraFitness(camera=name, looks=looks, found=found, placement=placement, findings=tuple(findings))
 
 
 def _told_by_typical(predictor: HeadsetPredictor, footage: Mapping[str, np.ndarray]) -> dict[str, str]:
-    """What mean pictures say of cameras whose pictures have the model's shape."""
-    import cv2
+    """What mean pictures say: of an eye whose pictures have the model's shape, of others of any usual shape.
 
-    scaled = {
-        name: np.stack(
-            [cv2.resize(one, predictor.sizes[name], interpolation=cv2.INTER_AREA) for one in pictures]
-        )
-        for name, pictures in footage.items()
-        if pictures.shape[2] * predictor.sizes[name][1] == pictures.shape[1] * predictor.sizes[name][0]
-    }
+    An eye in pictures of another shape seldom lies where it did in training.
+    """
+    scaled = {}
+    for name, pictures in footage.items():
+        width, height = predictor.sizes[name]
+        size = (pictures.shape[2], pictures.shape[1])
+        placement = None if traces_an_eye(predictor, name) else whole_of_shape(size, (width, height))
+        if placement is not None or has_shape_of(size, (width, height)):
+            seen = [fit_picture(one, width=width, height=height, placement=placement) for one in pictures]
+            scaled[name] = np.stack([one.picture for one in seen])
     if not scaled:
         return {}
     count = min(map(len, scaled.values()))

@@ -7,6 +7,7 @@ from decimal import Decimal
 from pathlib import Path
 
 from facegen.formats.natural_order import natural_order
+from regress.runtime.headset.name_times import NameTimes, decimal_seconds, may_be_times, name_times
 
 _MOST_NUMBER = 2**62
 """A frame's number is less: nanoseconds since 1970 are, and differences of numbers still fit 64 bits."""
@@ -15,12 +16,11 @@ _DIGITS = re.compile(r"(\d+)")
 _LAST_NUMBER = re.compile(r"(.*?)(\d+)\D*", re.DOTALL)
 """What stands before the last number of a file's name, and that number, before its ending."""
 
-_DECIMAL = re.compile(r"(\D*)(\d+\.\d+)")
 _CLOCK = re.compile(r"\D*\d{9,}\.\d+")
 """Seconds since 1970 with a fraction, behind what all names begin with."""
 
-_TICKS_A_SECOND = {13: 1e3, 16: 1e6, 19: 1e9}
-"""By how many digits a number of milliseconds, microseconds or nanoseconds since 1970 has, from 2001 to 2286."""
+_TICKS_A_SECOND = {10: 1.0, 13: 1e3, 16: 1e6, 19: 1e9}
+"""By how many digits a number of seconds, milliseconds, microseconds or nanoseconds since 1970 has, 2001 to 2286."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,22 +46,23 @@ class FrameNames:
 
 
 def frame_names(files: Sequence[Path]) -> FrameNames:
-    """The order of pictures, one or more, by what differs in their names: a number, or seconds with a fraction.
+    """The order of pictures, one or more, by what differs in their names: a number, or a time, a counter beside it.
 
     Where other digits or words differ as well, a number says only a part of the order, and none is taken.
     """
     files = sorted(files)
     stems = [file.stem for file in files]
-    found = [_DECIMAL.fullmatch(stem) for stem in stems]
-    decimal = all(found) and len({match[1] for match in found}) == 1
-    if decimal and all(_CLOCK.fullmatch(stem) for stem in stems):
-        return _by_decimals(files, [Decimal(match[2]) for match in found])
-    numbers = _counted(stems)
+    decimals = decimal_seconds(stems)
+    if decimals is not None and all(_CLOCK.fullmatch(stem) for stem in stems):
+        return _by_seconds(files, decimals)
+    numbers, times = _counted(stems), name_times(stems)
+    clocked = None if times is None else _by_clock(files, times, numbers)
+    if clocked is not None:
+        return clocked
     if numbers is not None and len(set(numbers)) == len(files) and max(numbers) < _MOST_NUMBER:
         pairs = sorted(zip(numbers, files, strict=True))
         counted = tuple(number for number, _ in pairs)
-        digits = {len(str(number)) for number in counted}
-        ticks = _TICKS_A_SECOND.get(digits.pop()) if len(digits) == 1 else None
+        ticks = _TICKS_A_SECOND[len(str(counted[0]))] if _are_ticks(counted) else None
         # differences are exact, where nanoseconds since 1970 are not
         time_s = (
             None if ticks is None else [counted[0] / ticks + (each - counted[0]) / ticks for each in counted]
@@ -71,18 +72,50 @@ def frame_names(files: Sequence[Path]) -> FrameNames:
             numbers=counted,
             time_s=None if time_s is None else tuple(time_s),
         )
-    if decimal:
-        return _by_decimals(files, [Decimal(match[2]) for match in found])
+    if decimals is not None:
+        return _by_seconds(files, decimals)
     return FrameNames(files=tuple(sorted(files, key=lambda file: natural_order(file.stem))), odd=_odd(files))
 
 
-def _by_decimals(files: Sequence[Path], seconds: Sequence[Decimal]) -> FrameNames:
+def _by_seconds(files: Sequence[Path], seconds: Sequence[Decimal]) -> FrameNames:
     pairs = sorted(zip(seconds, files, strict=True))
-    known = len(set(seconds)) == len(files) and _CLOCK.fullmatch(files[0].stem)
+    known = len(set(seconds)) == len(files) and (_CLOCK.fullmatch(files[0].stem) or may_be_times(seconds))
     return FrameNames(
         files=tuple(file for _, file in pairs),
         time_s=tuple(float(second) for second, _ in pairs) if known else None,
     )
+
+
+def _by_clock(files: Sequence[Path], times: NameTimes, numbers: Sequence[int] | None) -> FrameNames | None:
+    """The order by a clock, or by the counter beside one that tells whole seconds; None where neither is one.
+
+    A counter beside a clock counts pictures, also where the camera lost some, so the clock says which go together.
+    """
+    alone = len(set(times.rests)) == 1
+    if alone and numbers is not None and _are_ticks(numbers):
+        return None  # such names are numbers as well
+    counters = None if alone else _counted(times.rests)
+    if counters is None:
+        counters = range(len(files)) if alone else ()
+    if len(set(counters)) < len(files):
+        return None
+    rows = sorted(range(len(files)), key=lambda row: (times.seconds[row], counters[row]))
+    apart = len(set(times.seconds)) == len(files)
+    if not alone and [counters[row] for row in rows] != sorted(counters):
+        return None
+    if not apart and (alone or max(counters) >= _MOST_NUMBER):
+        return None
+    return FrameNames(
+        files=tuple(files[row] for row in rows),
+        time_s=tuple(float(times.seconds[row]) for row in rows) if apart else None,
+        numbers=None if apart else tuple(counters[row] for row in rows),
+    )
+
+
+def _are_ticks(numbers: Sequence[int]) -> bool:
+    """Whether numbers are those of a clock since 1970."""
+    digits = {len(str(number)) for number in numbers}
+    return len(digits) == 1 and digits.pop() in _TICKS_A_SECOND
 
 
 def _counted(stems: Sequence[str]) -> list[int] | None:

@@ -9,6 +9,7 @@ from regress.runtime.headset.moments import Moments
 from regress.runtime.headset.moments_by_number import (
     are_numbers,
     by_number,
+    ending_notes,
     film_rate,
     no_numbers,
     to_the_shortest,
@@ -61,7 +62,7 @@ def match(
     else:
         return _one_by_one(recordings, fps)
     if not from_start:
-        return matched
+        return matched if still else replace(matched, notes=matched.notes + ending_notes(begun))
     # frames keep the numbers of the first camera that has any
     first = next((int(each.numbers[0]) for each in recordings.values() if each.numbered), 0)
     return replace(matched, numbers=matched.numbers + first)

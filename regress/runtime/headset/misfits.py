@@ -4,11 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 
-import numpy as np
-
-from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.looks import CameraLooks, TakeLooks
-from regress.runtime.headset.placement import CameraPlacement
 
 _DARKER = 0.75
 """Of the darkest training's bright level: down to that, stretched levels lose nothing but grain."""
@@ -25,13 +21,6 @@ _RIM = 0.08
 _FLICKER = 0.03
 """Change of light from frame to frame: a steady lamp's is a hundredth or less (60 clips of 60 people)."""
 
-_SIZE, _SHIFT, _ROLL_DEG = 0.25, 0.18, 10.0
-"""Of a placement, from which frames are worth placing (log of the size, share of the view's width): in training people
-differ by .09 and .067, standard deviations."""
-
-_BROW = 0.5
-"""Share of the brow's points that lie outside of the picture, from which it counts as cropped."""
-
 
 class Misfit(Enum):
     """What is wrong with a camera's frames; the value is what a person calls it."""
@@ -47,10 +36,12 @@ class Misfit(Enum):
     OTHER = "of the other eye"
     TURNED = "turned or mixed up"
     BROW = "cropped at the brow"
+    NOSE = "cropped at the nose"
     RIM = "in a lens circle"
     FLICKER = "flickering"
     PLACED = "elsewhere"
     LOST = "not found"
+    FEW = "too few"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,96 +103,11 @@ def light_findings(name: str, looks: TakeLooks, known: CameraLooks) -> Iterator[
         )
 
 
-def place_findings(
-    name: str,
-    placement: CameraPlacement,
-    points: EyePoints,
-    *,
-    picture: tuple[int, int],
-    view: tuple[int, int],
-    told: str | None,
-) -> Iterator[Finding]:
-    """What is wrong with where the eye lies, by the placement at which it is found.
-
-    Parameters
-    ----------
-    name
-        Of the camera.
-    placement
-        As found.
-    points
-        Of the eye in training.
-    picture, view
-        Sizes (width, height) of the camera's pictures and of what the network sees.
-    told
-        What mean pictures say of the camera; None where they say nothing.
-    """
-    upside_down = abs(placement.roll_deg) > 135
-    if upside_down:
-        yield Finding(
-            camera=name,
-            misfit=Misfit.UPSIDE_DOWN,
-            sentence=f"{name} is upside down; turn the camera, or take --placement, which turns it",
-        )
-    sideways = not upside_down and abs(placement.roll_deg) > 45
-    if sideways:
-        yield Finding(
-            camera=name,
-            misfit=Misfit.SIDEWAYS,
-            sentence=f"{name} lies on its side; turn the camera by a quarter, or take --placement, which turns it",
-        )
-    if placement.mirror:
-        yield Finding(
-            camera=name,
-            misfit=Misfit.MIRRORED,
-            sentence=f"{name} is mirrored, or of the other eye; give the other eye's pictures as that eye's, or take "
-            f"--placement where the camera mirrors: of the other eye it would turn gaze to the wrong side",
-        )
-    if told is not None and not (upside_down or sideways or placement.mirror):
-        yield turned(name, told)
-    matrix = placement.picture_from_view(picture, view)
-    brow = points.usual[points.brow] @ matrix[:, :2].T + matrix[:, 2]
-    outside = ((brow < -0.5) | (brow > np.array(picture) - 0.5)).any(axis=1)
-    inside_of_view = ((points.usual[points.brow] > 0) & (points.usual[points.brow] < view)).all(axis=1)
-    if points.brow and outside[inside_of_view].mean() >= _BROW:
-        yield Finding(
-            camera=name,
-            misfit=Misfit.BROW,
-            sentence=f"{name} is cropped at the brow: {outside.sum()} of its {len(outside)} points lie outside, so its "
-            f"shapes are guesses; tilt the camera up, or widen its view",
-        )
-    turns = 180 if upside_down else 90 * sideways
-    roll_deg = placement.roll_deg - np.sign(placement.roll_deg) * turns
-    across, down = placement.x - 0.5, (placement.y - 0.5) * picture[1] / picture[0]
-    if (
-        abs(np.log(placement.size)) > _SIZE
-        or np.hypot(across, down) > _SHIFT * placement.size
-        or abs(roll_deg) > _ROLL_DEG
-    ):
-        yield Finding(
-            camera=name,
-            misfit=Misfit.PLACED,
-            sentence=f"{name} shows the eye elsewhere: {placement.size:.2f} times as large as in training, the view's "
-            f"middle at {100 * placement.x:.0f} % of the width and {100 * placement.y:.0f} % of the height, turned by "
-            f"{roll_deg:.0f}°; take --placement, or render for this camera: multiply its fx and fy in the headset's "
-            f"TOML by {placement.size:.2f} and move its target there",
-        )
-
-
-def lost(name: str) -> Finding:
-    """The finding of a camera in whose pictures no eye is found."""
+def few(name: str, count: int, needed: int) -> Finding:
+    """The finding of a camera of whose frames too few are usable."""
+    usable = f"{count} usable frame{'' if count == 1 else 's'}"
     return Finding(
         camera=name,
-        misfit=Misfit.LOST,
-        sentence=f"{name}: the eye is not found: wherever the model looks, it traces one farther out; the placement is "
-        f"the whole picture: look at --sheet, write x, y and size into --out by hand, or try another model",
-    )
-
-
-def turned(name: str, told: str) -> Finding:
-    """The finding of a camera of which mean pictures say that it is turned or mixed up."""
-    return Finding(
-        camera=name,
-        misfit=Misfit.TURNED,
-        sentence=f"{name} is turned or mixed up: {told} If it is turned, write roll_deg (180, 90 or -90) into --out",
+        misfit=Misfit.FEW,
+        sentence=f"{name} has {usable}; at least {needed} are needed, best 100-300",
     )

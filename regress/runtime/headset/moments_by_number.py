@@ -24,7 +24,8 @@ _WINDOW = 20
 """Frames over which a camera that gives three for four moments, say, gives as many again and again."""
 
 _SAME_SPAN = 1.1
-"""Factor between the lengths of takes from which counters of other steps are not one counter."""
+"""Factor between the lengths of takes from which counters of other steps are not one counter, and from which one that
+ends first may be that of a camera with fewer frames a second."""
 
 
 def are_numbers(recordings: Mapping[str, Recording], *, clocks: bool, from_start: bool) -> bool:
@@ -143,6 +144,22 @@ def _counting_note(recordings: Mapping[str, Recording]) -> tuple[str, ...]:
     return (
         f"{', '.join(counted)}: counted from 0, while the other cameras' numbers begin at {first}; --from-start "
         f"matches first frames",
+    )
+
+
+def ending_notes(recordings: Mapping[str, Recording]) -> tuple[str, ...]:
+    """Which counters begin as the others do and end long before them: their cameras stopped, or are slow ones.
+
+    A slow camera's frames that were counted by themselves go with a quick one's first ones, later and later.
+    """
+    first = min(int(each.numbers[0]) for each in recordings.values())
+    ends = {name: int(each.numbers[-1]) for name, each in recordings.items() if each.numbers[0] <= first + 1}
+    last = max(int(each.numbers[-1]) for each in recordings.values())
+    return tuple(
+        f"{name}: its numbers end at {end}, while others go on to {last}; if it did not stop there but gives fewer "
+        f"frames a second, call all files by their times, as 1700000000.25.png"
+        for name, end in ends.items()
+        if last - first + 1 > _SAME_SPAN * (end - first + 1)
     )
 
 

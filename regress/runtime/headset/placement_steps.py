@@ -1,4 +1,4 @@
-"""Leads a view, step by step, to where an eye lies in it as eyes do in training, and says how good it is there.
+"""Leads a view, step by step, to where an eye or a mouth lies in it as in training, and says how good it is there.
 
 A network's points lean towards where they lie in training: of an eye that is too large in the view it traces one that
 is a little too large. So a single look says too little, and a placement is looked for at which the eye, as traced, is
@@ -17,7 +17,8 @@ from regress.runtime.headset.compass import QUARTERS, eye_compass
 from regress.runtime.headset.eye_points import EyePoints
 from regress.runtime.headset.found_placement import FoundPlacement
 from regress.runtime.headset.levels import levels_in
-from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.mouth_points import MouthPoints
+from regress.runtime.headset.placement import CameraPlacement, whole_view
 from regress.runtime.headset.predictor import HeadsetPredictor
 from regress.runtime.headset.typical import likeness, typical_picture
 
@@ -57,27 +58,20 @@ to half again its width (-1.0), and turned -.3 or less (one probe)."""
 def placement_of_points(
     placement: CameraPlacement,
     seen: np.ndarray,
-    points: EyePoints,
+    points: EyePoints | MouthPoints,
     *,
     picture: tuple[int, int],
     view: tuple[int, int],
 ) -> CameraPlacement:
     """The placement at which points would lie as in training, if they lie so (n, P, 2) in the view of another one.
 
-    Points may be NaN where they are hidden, but those of iris and lids not in all frames.
-
-    The size is the iris's, which is nearly the same in all people; the place is that of the lids' middle, and upright
-    is the line between the eye's corners. It may lie anywhere, and be of any size.
+    Points may be NaN where they are hidden, but those that are followed not in all frames. It may lie anywhere, and be
+    of any size.
     """
-    size = np.nanmedian(_diameters(seen[:, points.iris])) / _diameters(points.usual[None, points.iris])[0]
-    lids = points.upper + points.lower
-    middle = np.nanmedian(seen[:, lids], axis=0)
-    corners = [0, len(points.upper) - 1]
-    turned = _angle(middle[corners]) - _angle(points.usual[lids][corners])
-    turn = size * np.array([[np.cos(turned), -np.sin(turned)], [np.sin(turned), np.cos(turned)]])
+    turn, shift = points.seen_from_usual(seen)
     matrix = placement.picture_from_view(picture, view)
     linear = matrix[:, :2] @ turn
-    offset = matrix[:, :2] @ (middle.mean(axis=0) - turn @ points.usual[lids].mean(axis=0)) + matrix[:, 2]
+    offset = matrix[:, :2] @ shift + matrix[:, 2]
     at = linear @ ((np.array(view) - 1) / 2) + offset
     x, y = (at + 0.5) / picture
     wide = np.sqrt(abs(np.linalg.det(linear))) * view[0] / picture[0]
@@ -97,7 +91,7 @@ class Search:
         self,
         predictor: HeadsetPredictor,
         camera: str,
-        points: EyePoints,
+        points: EyePoints | MouthPoints,
         pictures: np.ndarray,
         *,
         fades: bool,
@@ -107,12 +101,17 @@ class Search:
         self._view = predictor.sizes[camera]
         self._picture = (pictures.shape[2], pictures.shape[1])
         self._aspect = self._picture[0] / self._picture[1]
+        self.whole = replace(whole_view(self._picture, self._view), aspect=None)
         self.fades = fades
         largest, self._edge = (_LARGEST_FADED, _EDGE_FADED) if fades else (_LARGEST, _EDGE)
         self._largest = largest * max(self._picture) / self._picture[0]
         names = predictor.model.weights
         self._typical = predictor.typical.get(camera)
-        self._of_right_eye = predictor.model.points[camera][points.pupil].startswith("right")
+        # the compass knows eyes alone, and a mouth in a mirror is a mouth
+        self.of_an_eye = isinstance(points, EyePoints)
+        self._of_right_eye = self.of_an_eye and predictor.model.points[camera][points.pupil].startswith(
+            "right"
+        )
         self._part = [names.index(name) for name in predictor.model.parts[camera]]
         self._uprights: dict[tuple[bool, int], float] = {}
 
@@ -157,7 +156,9 @@ class Search:
     @cached_property
     def surely_upright(self) -> bool:
         """Whether the compass is sure, of the pictures as they come, that the eye stands upright, on either side."""
-        shares = self._log_shares(CameraPlacement())
+        if not self.of_an_eye:
+            return False
+        shares = self._log_shares(self.whole)
         return bool(shares[:2].max() > shares[2:].max() + _SURELY)
 
     def _upright(self, *, mirror: bool, quarter: int) -> float:
@@ -165,6 +166,8 @@ class Search:
 
         It is the same wherever the view lies: asked of each view, the compass chose among sizes as well.
         """
+        if not self.of_an_eye:
+            return 0.0
         if (mirror, quarter) not in self._uprights:
             roll_deg = (90.0 * quarter + 180) % 360 - 180
             whole = [CameraPlacement(mirror=mirror, roll_deg=roll_deg, size=size) for size in _WHOLE]
@@ -200,20 +203,19 @@ class Search:
         matrices = [
             moved.picture_from_view(self._picture, self._view) for moved in _moved(placement, self._aspect)
         ]
-        lids_and_iris = self._points.upper + self._points.lower + self._points.iris
         at = np.array(
             [
-                points[:, lids_and_iris] @ matrix[:, :2].T + matrix[:, 2]
+                points[:, self._points.followed] @ matrix[:, :2].T + matrix[:, 2]
                 for points, matrix in zip(seen, matrices, strict=True)
             ]
         )
         unrest = np.sqrt(((at - at.mean(axis=0)) ** 2).sum(axis=-1).mean(axis=(0, 2)))
-        # in the picture's pixels, as the unrest; the first lids begin and end with the eye's corners
-        upper = len(self._points.upper)
-        eye = np.linalg.norm(at[0][:, upper - 1] - at[0][:, 0], axis=-1)
+        # in the picture's pixels, as the unrest
+        first, last = (self._points.followed.index(end) for end in self._points.ends)
+        width = np.linalg.norm(at[0][:, last] - at[0][:, first], axis=-1)
         return seen[0], {
             "deviation": float(np.mean(deviations)),
-            "unrest": float(np.median(unrest / np.maximum(eye, 1.0))),
+            "unrest": float(np.median(unrest / np.maximum(width, 1.0))),
             "likeness": likenesses[0],
             "upright": self._upright(
                 mirror=placement.mirror, quarter=round(placement.roll_deg / 90) % QUARTERS
@@ -248,13 +250,3 @@ def _moved(placement: CameraPlacement, aspect: float) -> Iterator[CameraPlacemen
             size=placement.size * scale,
             roll_deg=(placement.roll_deg + turn_deg + 180) % 360 - 180,
         )
-
-
-def _diameters(outlines: np.ndarray) -> np.ndarray:
-    """(n,) of irises (n, k, 2): their points lie on ellipses, evenly."""
-    return 2 * np.linalg.norm(outlines - outlines.mean(axis=1, keepdims=True), axis=2).mean(axis=1)
-
-
-def _angle(corners: np.ndarray) -> float:
-    across, down = corners[1] - corners[0]
-    return float(np.arctan2(down, across))

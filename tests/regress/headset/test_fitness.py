@@ -17,7 +17,7 @@ from regress.runtime.headset.fitness_sheet import fitness_sheet
 from regress.runtime.headset.found_placement import FoundPlacement
 from regress.runtime.headset.looks import flicker_of
 from regress.runtime.headset.misfits import Misfit
-from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.placement import CameraPlacement, whole_view
 from regress.runtime.headset.placement_file import read_placement
 from regress.runtime.headset.placement_search import find_placement
 from regress.runtime.headset.placement_steps import Search, _apart, _is_as_drawn, _moved, placement_of_points
@@ -174,6 +174,31 @@ def test_the_side_is_told_by_all_frames_and_not_by_the_few_of_the_steps(take: Ta
     seen[few] = pictures[few]
     assert find_placement(predictor, "left_eye", seen).placement.mirror
     assert not find_placement(predictor, "left_eye", seen[few]).placement.mirror
+
+
+@pytest.mark.parametrize("shape", [(72, 96), (96, 72), (96, 96)])
+def test_all_of_a_picture_is_all_of_it_also_where_it_stands_upright(
+    predictor: HeadsetPredictor, take: Take, monkeypatch: pytest.MonkeyPatch, shape: tuple[int, int]
+):
+    """A view as wide as the picture cut a quarter off a rotated sensor's, from which the search also began."""
+    height, width = shape
+    pictures = take["left_eye"][:24, :height, :width]
+    starts = []
+
+    def best(self, start: CameraPlacement) -> FoundPlacement:
+        starts.append(start)
+        return FoundPlacement(placement=replace(start, x=0.0), deviation=0.1, unrest=0.05, unsettled=0.1)
+
+    monkeypatch.setattr(Search, "best", best)
+    found = find_placement(predictor, "left_eye", pictures)
+    whole = replace(whole_view((width, height), (96, 96)), aspect=None)
+    assert found.lost
+    assert starts[0] == whole
+    assert replace(found.placement, mirror=False) == whole
+    matrix = found.placement.picture_from_view((width, height), (96, 96))
+    corners = np.array([[-0.5, -0.5], [95.5, 95.5]]) @ matrix[:, :2].T + matrix[:, 2]
+    assert (corners.min(axis=0) <= -0.5 + 1e-9).all()
+    assert (corners.max(axis=0) >= np.array([width, height]) - 0.5 - 1e-9).all()
 
 
 def _square(matrix: np.ndarray) -> np.ndarray:
@@ -369,15 +394,16 @@ def test_a_network_of_drawn_headsets_is_not_led_to_the_usual_eye(predictor: Head
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (lambda frames: frames[:, :72], "then give it to `regress headset predict --placement"),
-        (lambda frames: frames[:, ::-1, ::-1], "all of each picture, as nothing better was found"),
+        (lambda frames: frames[:, :72], "all of each picture, as without it, so predict needs none"),
+        (lambda frames: frames[:, 24:64], "then give it to `regress headset predict --placement"),
+        (lambda frames: frames[:, ::-1, ::-1], "then give it to `regress headset predict --placement"),
     ],
-    ids=["another shape", "upside down"],
+    ids=["4:3", "a strip", "upside down"],
 )
 def test_predict_needs_no_placement_only_where_it_takes_the_frames(
     run, tmp_path: Path, change: Callable[[np.ndarray], np.ndarray], said: str
 ):
-    """Of a mouth's camera no placement is found, and pictures of another shape are not taken without one."""
+    """Pictures of another usual shape are taken as they are, and strips are at fault without a placement."""
     mouth = np.stack(
         [cv2.imread(str(file), cv2.IMREAD_GRAYSCALE) for file in sorted((TAKE / "mouth").glob("*.png"))]
     )

@@ -222,3 +222,34 @@ def test_a_slow_cameras_picture_that_stands_is_not_frozen():
     mouth = recording("mouth", pictures([110] * 8, seed=1), numbered=False, time_s=np.arange(8) / 2)
     footage = line_up({"left_eye": eye, "mouth": mouth}, SIZES)
     assert footage.present.all()
+
+
+@given(
+    st.integers(0, 1000),
+    st.integers(20, 300),
+    st.floats(1, 4),
+    st.sets(st.integers(1, 18), max_size=5),
+)
+def test_a_counter_that_ends_long_before_the_others_is_told(
+    first: int, count: int, times: float, lost: set[int]
+):
+    """Of 60 and 30 frames a second, each counted from its own first one, a half went with the wrong ones."""
+    quick = np.arange(first, first + round(times * count))
+    slow = np.delete(np.arange(first, first + count), list(lost))
+    takes = {
+        "left_eye": recording("left_eye", np.full((len(quick), 2, 2), 9, np.uint8), numbers=quick),
+        "mouth": recording("mouth", np.full((len(slow), 2, 2), 9, np.uint8), numbers=slow),
+    }
+    told = [note for note in match(takes).notes if note.startswith(f"mouth: its numbers end at {slow[-1]}")]
+    assert bool(told) == (len(quick) > 1.1 * count)
+    assert all(f"go on to {quick[-1]}; " in note and "fewer frames a second" in note for note in told)
+    # takes of different recordings end as they do, and frames that have nothing to do with each other
+    assert not any(
+        "fewer" in note for note in match(takes, from_start=True).notes + match(takes, still=True).notes
+    )
+
+
+def test_a_slow_camera_that_is_numbered_as_the_quick_one_is_counts_the_same():
+    eye = recording("left_eye", np.full((600, 2, 2), 9, np.uint8))
+    mouth = recording("mouth", np.full((300, 2, 2), 9, np.uint8), numbers=np.arange(0, 600, 2))
+    assert match({"left_eye": eye, "mouth": mouth}).notes == ()
