@@ -22,6 +22,7 @@ ROOT = Path(__file__).parents[1]
 
 ELSEWHERE = {
     "docs/exports.md": "tests/regress/exporters/test_examples.py",
+    "docs/keypoint-pictures.md": "tests/facegen/packing/test_keypoint_pictures.py",
     "docs/reading-a-dataset.md": "tests/facegen/test_reading_a_dataset.py",
     "docs/room-studies.md": "tests/room/test_studies.py",
 }

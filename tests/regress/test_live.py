@@ -14,7 +14,7 @@ from regress.runtime.predict import landmark_chain
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
 from regress.runtime.stages.adjustment import ShapeAdjustment
-from regress.runtime.stages.filters import DEFAULT_FILTER, FILM_FILTER, FILTERS
+from regress.runtime.stages.filters import FILM_FILTER, FILTERS
 from regress.runtime.stages.head import HeadSettings
 from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import Output
@@ -43,7 +43,7 @@ STAGES: dict[str, tuple[tuple[str, ...], Output]] = {
         ("--filter", "none", "--adjust", "mine.json"),
         Output(adjustments={"jawOpen": ShapeAdjustment(gain=2.0), "*": ShapeAdjustment(dead_zone=0.1)}),
     ),
-    "own blinks": (("--own-blinks",), Output(filter=DEFAULT_FILTER, own_blinks=True)),
+    "own blinks": (("--own-blinks",), Output(filter=FILM_FILTER, own_blinks=True)),
     "sides blended": (("--filter", "none", "--left-right-blend", "0.7"), Output(left_right_blend=0.7)),
     "mirrored": (("--filter", "none", "--mirror"), Output(mirror=True)),
     "retargeted": (("--filter", "none", "--retarget", "vrm1"), Output(retargeting=read_retargeting("vrm1"))),

@@ -16,6 +16,7 @@ from facegen.formats.film import encode_film
 from regress.cli import app
 from regress.errors import InputError
 from regress.runtime.headset import guided
+from regress.runtime.headset.guided_gaze import HALF_APART_M
 from regress.runtime.headset.person import (
     FULL_GAIN,
     OwnEnds,
@@ -340,7 +341,7 @@ def test_near_targets_turn_both_eyes_inwards(run, tmp_path: Path):
         code, _, said = run(*words, *more, "--out", tmp_path / f"{name}.json")
         assert code == 0, said
         eyes[name] = read_person(tmp_path / f"{name}.json").eyes
-    inward_deg = np.degrees(np.arctan(guided.HALF_APART_M / 0.3))
+    inward_deg = np.degrees(np.arctan(HALF_APART_M / 0.3))
     for camera, sign in (("left_eye", -1), ("right_eye", 1)):
         (*_, far_deg), pitch = eyes["far"][camera].traced
         (*_, near_deg), same_pitch = eyes["near"][camera].traced
