@@ -14,7 +14,7 @@ from regress.runtime.predict import landmark_chain
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
 from regress.runtime.stages.adjustment import ShapeAdjustment
-from regress.runtime.stages.filters import FILM_FILTER, FILTERS
+from regress.runtime.stages.filters import DEFAULT_FILTER, FILM_FILTER, FILTERS
 from regress.runtime.stages.head import HeadSettings
 from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import Output
