@@ -12,8 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regress.runtime.headset.fitness import CameraFitness, judge
-from regress.runtime.headset.levels import level_table
-from regress.runtime.headset.looks import levels_of
+from regress.runtime.headset.levels import levels_in
 from regress.runtime.headset.misfits import Misfit
 from regress.runtime.headset.mouth_points import MouthPoints
 from regress.runtime.headset.placement import CameraPlacement, whole_view
@@ -64,7 +63,7 @@ def mouth_weights(
     predictor: HeadsetPredictor, pictures: np.ndarray, placement: CameraPlacement
 ) -> np.ndarray:
     views = np.stack([placement.view(one, width=VIEW[0], height=VIEW[1]) for one in pictures])
-    levelled = level_table(*levels_of(views), predictor.model.looks["mouth"])[views]
+    levelled = levels_in([views], predictor.model.looks["mouth"]).apply(views)
     columns = [predictor.model.weights.index(name) for name in predictor.model.parts["mouth"]]
     return predictor.graph.run({"mouth": levelled}).weights[:, columns]
 
