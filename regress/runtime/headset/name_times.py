@@ -3,7 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime, timezone
 from decimal import Decimal
 from itertools import pairwise
 
@@ -84,7 +84,7 @@ def _since_1970(parts: Sequence[str]) -> Decimal | None:
     if len(parts) == 1:
         return Decimal(parts[0])
     try:
-        found = datetime(*map(int, parts), tzinfo=UTC)
+        found = datetime(*map(int, parts), tzinfo=timezone.utc)
     except ValueError:
         return None
     return Decimal(int(found.timestamp())) if found.year >= 1970 else None
