@@ -95,7 +95,7 @@ def levels_in(
     named = _named(placement, looks)
     if named is not None:
         return named
-    pool = _Pool()
+    pool = _Pool(math.inf)
     for pictures in stacks:
         for picture in pictures:
             pool.see(picture, 1.0)
@@ -153,7 +153,7 @@ class Levels:
             if known is not None and known.fixed:
                 seen[name] = known.apply(picture)
                 continue
-            pool = self._pools.setdefault(name, _Pool())
+            pool = self._pools.setdefault(name, _Pool(_MEMORY_S))
             brightness = pool.see(picture, seconds)
             low, high = pool.ends
             if known is None or max(abs(low - known.low), abs(high - known.high)) > _SAME_END:
@@ -170,9 +170,10 @@ class Levels:
 
 
 class _Pool:
-    """How many pixels have which share of their picture's brightness, over pictures that are forgotten by and by."""
+    """How many pixels have which share of their picture's brightness, of pictures that are forgotten in ``memory_s``."""
 
-    def __init__(self) -> None:
+    def __init__(self, memory_s: float) -> None:
+        self._memory_s = memory_s
         self._counts = np.zeros(int(_BINS * (_MOST_BRIGHT + 4)))
 
     def see(self, picture: np.ndarray, seconds: float) -> float:
@@ -180,7 +181,7 @@ class _Pool:
         counts = _counted(picture)
         brightness = brightness_of(counts)
         places = np.rint(_GREYS * (_BINS / brightness)).astype(np.intp).clip(0, len(self._counts) - 1)
-        self._counts *= math.exp(-seconds / _MEMORY_S)
+        self._counts *= math.exp(-seconds / self._memory_s)
         self._counts += np.bincount(
             places, weights=counts * (seconds / picture.size), minlength=len(self._counts)
         )

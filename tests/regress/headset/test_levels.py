@@ -63,6 +63,15 @@ def test_ends_become_trainings_middle_ones(times: float):
     assert (low, high) == (pytest.approx(14, abs=4), pytest.approx(143, abs=4))
 
 
+def test_all_of_a_take_counts_whatever_its_order():
+    flat = np.rint(90 + 0.4 * (FACE - 90)).astype(np.uint8)
+    take = np.stack([*[lit(1.0)] * 60, *[flat] * 60])
+    found = levels_in([take], LOOKS)
+    assert found.high == pytest.approx(levels_in([take[::-1]], LOOKS).high)
+    assert found.high == pytest.approx(levels_in([take[:60], take[60:]], LOOKS).high)
+    assert found.high > levels_in([take[60:]], LOOKS).high + 0.1
+
+
 @pytest.mark.parametrize("share", [0.3, 0.45])
 def test_a_dark_rim_leaves_the_brightness_alone(share: float):
     """Brightness is of what the lamps light, so that it still follows them where a lens circle cuts half away."""
