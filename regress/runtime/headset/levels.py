@@ -170,7 +170,7 @@ class Levels:
 
 
 class _Pool:
-    """How many pixels have which share of their picture's brightness, of pictures that are forgotten in ``memory_s``."""
+    """How many pixels have which share of their picture's brightness, of pictures that are forgotten by and by."""
 
     def __init__(self, memory_s: float) -> None:
         self._memory_s = memory_s
