@@ -20,9 +20,9 @@ from facegen.conventions import BLENDSHAPE_INDEX, VIEW_POINTS
 from regress.learning.headset.accuracy import summary
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.learning.headset.evaluation import Condition, estimate
-from regress.runtime.headset.estimates import Estimates
-from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.eyes.eye_points import EyePoints
+from regress.runtime.headset.network.estimates import Estimates
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
 
 _BLINKS = [BLENDSHAPE_INDEX["eyeBlinkLeft"], BLENDSHAPE_INDEX["eyeBlinkRight"]]
 SHUT, RESTING = 0.8, 0.05

@@ -24,10 +24,10 @@ import cv2
 import numpy as np
 
 from benchmarks.real_eyes import CAMERA, FILMS, Film, answer_to, pupil_figures, read_film
-from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.found_placement import FoundPlacement
-from regress.runtime.headset.placement_search import find_placement
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.eyes.eye_points import EyePoints
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.placing.found_placement import FoundPlacement
+from regress.runtime.headset.placing.placement_search import find_placement
 
 Change = tuple[float, Callable[[Film], Film]]
 """How much wider eyes come out, and what is done to a film."""

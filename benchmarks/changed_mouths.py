@@ -18,10 +18,10 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from regress.runtime.headset.fitness import FEWEST_FRAMES, judge
-from regress.runtime.headset.levels import levels_in
-from regress.runtime.headset.placement import CameraPlacement, whole_view
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.fitness.fitness import FEWEST_FRAMES, judge
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.pictures.placement import CameraPlacement, whole_view
+from regress.runtime.headset.placing.levels import levels_in
 
 CAMERA = "mouth"
 OF_PLACES = ("UPSIDE_DOWN", "SIDEWAYS", "PLACED", "NOSE", "LOST", "TURNED")

@@ -18,9 +18,9 @@ from benchmarks.any_headset import headset_of_rows
 from benchmarks.changed_eyes import changes
 from benchmarks.real_eyes import FILMS, read_film
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
-from regress.runtime.headset.compass import ORIENTATIONS, eye_compass
-from regress.runtime.headset.parts import is_of_one_eye, side_of
-from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.network.parts import is_of_one_eye, side_of
+from regress.runtime.headset.pictures.placement import CameraPlacement
+from regress.runtime.headset.placing.compass import ORIENTATIONS, eye_compass
 
 OF_RIGHT_EYE = {"film_a": True, "film_b": False}
 """Whether a film shows a right eye, by the look of its inner corner."""

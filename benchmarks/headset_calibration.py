@@ -27,13 +27,13 @@ from regress.learning.headset.adaptation import adapted_graph, changes, judge, r
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.learning.headset.evaluation import COMBINED
 from regress.learning.headset.known_frames import known_frames
-from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.eye_reader import EyeReader
-from regress.runtime.headset.graph import HeadsetGraph
-from regress.runtime.headset.guided import FACES, LOOK, REST, GuidedTake, person_of
-from regress.runtime.headset.person import OwnEnds, Person
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.runtime.headset.traced_eyes import eye_features
+from regress.runtime.headset.answers.eye_reader import EyeReader
+from regress.runtime.headset.answers.traced_eyes import eye_features
+from regress.runtime.headset.eyes.eye_points import EyePoints
+from regress.runtime.headset.guided.minute import FACES, LOOK, REST, GuidedTake, person_of
+from regress.runtime.headset.network.graph import HeadsetGraph
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.person.person import OwnEnds, Person
 from regress.runtime.ready_made import model_folder
 from regress.runtime.stages.frame_clock import USUAL_FPS
 

@@ -25,9 +25,9 @@ from facegen.rigs import load_rig
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.learning.headset.comparison import compare
 from regress.learning.headset.evaluation import Condition, estimate, evaluate
-from regress.runtime.headset.figures import evaluation_to_json
-from regress.runtime.headset.model import HeadsetTraining
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.network.figures import evaluation_to_json
+from regress.runtime.headset.network.model import HeadsetTraining
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
 from regress.timing import time_headset
 
 SHOWN_PX, WINDOW_M = 240, (-0.115, 0.115, 0.115, -0.145)

@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
-from regress.runtime.headset.footage import Footage
-from regress.runtime.headset.orientation import told_orientation
-from regress.runtime.headset.parts import mirror_partner
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.network.parts import mirror_partner
+from regress.runtime.headset.network.predictor import load_headset_predictor
+from regress.runtime.headset.placing.orientation import told_orientation
+from regress.runtime.headset.recordings.footage import Footage
 
 TURNS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "nothing": lambda pictures: pictures,

@@ -21,12 +21,12 @@ import numpy as np
 from benchmarks.any_headset import headset_of_rows
 from facegen.conventions import VIEW_POINTS
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
-from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.levels import levels_in
-from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.placement_search import find_placement
-from regress.runtime.headset.placement_steps import placement_of_points
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.eyes.eye_points import EyePoints
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.pictures.placement import CameraPlacement
+from regress.runtime.headset.placing.levels import levels_in
+from regress.runtime.headset.placing.placement_search import find_placement
+from regress.runtime.headset.placing.placement_steps import placement_of_points
 
 EYES = ("left_eye", "right_eye")
 SHAPES = ((160, 120), (128, 128), (144, 108), (200, 150))

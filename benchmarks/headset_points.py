@@ -15,7 +15,7 @@ import numpy as np
 from facegen.conventions import LANDMARK_GROUPS, VIEW_POINTS
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.learning.headset.evaluation import COMBINED
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
 
 NEAR_DEG = 12.0
 """Of gaze, within which a pupil moves about evenly with it."""

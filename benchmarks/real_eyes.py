@@ -27,11 +27,11 @@ import cv2
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX
-from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.levels import levels_in
-from regress.runtime.headset.placement import CameraPlacement, whole_view
-from regress.runtime.headset.placement_search import find_placement
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.eyes.eye_points import EyePoints
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.pictures.placement import CameraPlacement, whole_view
+from regress.runtime.headset.placing.levels import levels_in
+from regress.runtime.headset.placing.placement_search import find_placement
 
 FILMS = ("film_a", "film_b")
 SHUT = {"film_a": ("000588", "000616"), "film_b": ("000408",)}

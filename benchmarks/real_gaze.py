@@ -17,13 +17,13 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.real_eyes import CAMERA, Film, dark_blob, fitted_without, read_film
-from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.eye_reader import EyeReader
-from regress.runtime.headset.gaze_map import DEGREES_AN_IRIS, gaze_map
-from regress.runtime.headset.levels import levels_in
-from regress.runtime.headset.placement_search import find_placement
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.runtime.headset.traced_eyes import eye_features, iris_diameter
+from regress.runtime.headset.answers.eye_reader import EyeReader
+from regress.runtime.headset.answers.traced_eyes import eye_features, iris_diameter
+from regress.runtime.headset.eyes.eye_points import EyePoints
+from regress.runtime.headset.eyes.gaze_map import DEGREES_AN_IRIS, gaze_map
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.placing.levels import levels_in
+from regress.runtime.headset.placing.placement_search import find_placement
 from regress.runtime.stages.frame_clock import USUAL_FPS
 
 ROUNDS = 4

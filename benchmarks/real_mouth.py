@@ -22,9 +22,9 @@ from facegen.conventions import BLENDSHAPE_INDEX
 from regress.learning.headset.accuracy import r2_of
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.learning.headset.evaluation import Condition, estimate
-from regress.runtime.headset.levels import levels_in
-from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.pictures.placement import CameraPlacement
+from regress.runtime.headset.placing.levels import levels_in
 
 CAMERA = "mouth"
 TONGUE, FULLY = 0.3, 0.7

@@ -30,7 +30,7 @@ from regress.learning.training import read_dataset
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.noise import displace, draw_displacements
 from regress.learning.training.record import DETECTOR
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.network.predictor import load_headset_predictor
 from regress.runtime.model import Model, load_model
 from regress.runtime.ready_made import ready_made_models
 from regress.targets import OUTPUTS, VISIBLE_SHAPES

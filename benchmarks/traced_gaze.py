@@ -16,10 +16,10 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.learning.headset.accuracy import gaze_error_deg
 from regress.learning.headset.arrays import read_arrays
-from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.own_gaze import corrected, fused
-from regress.runtime.headset.predictor import load_headset_predictor
-from regress.runtime.headset.traced_eyes import eye_features
+from regress.runtime.headset.answers.traced_eyes import eye_features
+from regress.runtime.headset.eyes.eye_points import EyePoints
+from regress.runtime.headset.eyes.own_gaze import corrected, fused
+from regress.runtime.headset.network.predictor import load_headset_predictor
 
 TARGETS = (0, 1, 5, 9)
 FEWEST_JUDGED = 9

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from regress.errors import ModelError
-from regress.runtime.headset.figures import Evaluation
-from regress.runtime.headset.folder import read_headset_model
-from regress.runtime.headset.model import HeadsetModel
-from regress.runtime.headset.predictor import is_headset_model
+from regress.runtime.headset.network.figures import Evaluation
+from regress.runtime.headset.network.folder import read_headset_model
+from regress.runtime.headset.network.model import HeadsetModel
+from regress.runtime.headset.network.predictor import is_headset_model
 from regress.runtime.model import HEADSET, KEYPOINTS, load_model
 from regress.runtime.model.record import TrainingRecord
 

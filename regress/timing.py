@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from regress.exporters import export_model
-from regress.runtime.headset.predictor import HeadsetPredictor
+from regress.runtime.headset.network.predictor import HeadsetPredictor
 from regress.runtime.model import FastPredictor, Model
 from regress.runtime.onnx_session import open_session
 

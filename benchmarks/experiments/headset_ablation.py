@@ -20,8 +20,8 @@ from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.learning.headset.evaluation import evaluate
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training import train_headset
-from regress.runtime.headset.figures import evaluation_to_json
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.network.figures import evaluation_to_json
+from regress.runtime.headset.network.predictor import load_headset_predictor
 
 HOLISTIC = {"architecture": "holistic"}
 NARROW = {"randomise": 0, "shift": 0.03, "scale": 0.04, "rotation_deg": 3, "plain": 0}

@@ -17,7 +17,7 @@ from benchmarks.headset_networks import print_table, spread
 from facegen.conventions import BLENDSHAPES
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays
 from regress.learning.headset.geometry import FaceGeometry
-from regress.runtime.headset.parts import part_of
+from regress.runtime.headset.network.parts import part_of
 
 CLUSTERS = (25, 100, 400)
 SEEDS = range(3)

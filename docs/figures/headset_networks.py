@@ -28,8 +28,8 @@ from facegen.preview.performance import FACE_M
 from facegen.rigs import load_rig
 from regress.learning.headset.arrays import read_arrays
 from regress.learning.headset.evaluation import Condition, estimate, evaluate
-from regress.runtime.headset.figures import Evaluation
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.network.figures import Evaluation
+from regress.runtime.headset.network.predictor import load_headset_predictor
 
 OUT = Path(__file__).resolve().parents[1] / "pictures"
 FACES = 7

@@ -18,7 +18,7 @@ def bench(
     """
     import numpy as np
 
-    from regress.runtime.headset.predictor import is_headset_model, load_headset_predictor
+    from regress.runtime.headset.network.predictor import is_headset_model, load_headset_predictor
     from regress.runtime.model import load_model
     from regress.timing import time_headset, time_model
 

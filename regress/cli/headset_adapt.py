@@ -79,8 +79,8 @@ def adapt(
     from regress.cli.headset_minute import read_minute
     from regress.learning.headset.adaptation import LEAST_GAIN, adapted_graph, changes, judge, read_heads
     from regress.learning.headset.known_frames import known_frames
-    from regress.runtime.headset.folder import save_headset_model
-    from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.headset.network.folder import save_headset_model
+    from regress.runtime.headset.network.predictor import load_headset_predictor
     from regress.runtime.model import HEADSET as KIND
     from regress.runtime.model import check_place
     from regress.runtime.ready_made import HEADSET, model_folder

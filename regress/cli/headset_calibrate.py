@@ -86,9 +86,9 @@ def calibrate(
     from facegen.files import refuse_ending
     from regress.cli.headset_input import told_of
     from regress.cli.headset_minute import read_minute
-    from regress.runtime.headset.guided import person_of
-    from regress.runtime.headset.person import seen_as, write_person
-    from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.headset.guided.minute import person_of
+    from regress.runtime.headset.network.predictor import load_headset_predictor
+    from regress.runtime.headset.person.person import seen_as, write_person
     from regress.runtime.ready_made import HEADSET
 
     if out is None:

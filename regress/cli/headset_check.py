@@ -14,8 +14,8 @@ from regress.errors import InputError
 if TYPE_CHECKING:
     import numpy as np
 
-    from regress.runtime.headset.fitness import CameraFitness
-    from regress.runtime.headset.predictor import HeadsetPredictor
+    from regress.runtime.headset.fitness.fitness import CameraFitness
+    from regress.runtime.headset.network.predictor import HeadsetPredictor
 
 
 def check(
@@ -48,13 +48,13 @@ def check(
     from facegen.console import say
     from facegen.files import refuse_ending, write_whole
     from regress.cli.headset_input import camera_paths
-    from regress.runtime.headset.faults import fault_sentences
-    from regress.runtime.headset.fitness import checked_rows, judge
-    from regress.runtime.headset.fitness_sheet import fitness_sheet
-    from regress.runtime.headset.placement_file import Placement, write_placement
-    from regress.runtime.headset.predictor import load_headset_predictor
-    from regress.runtime.headset.recorded_paths import recorded_size
-    from regress.runtime.headset.recordings import read_recording
+    from regress.runtime.headset.fitness.fitness import checked_rows, judge
+    from regress.runtime.headset.fitness.sheet import fitness_sheet
+    from regress.runtime.headset.network.predictor import load_headset_predictor
+    from regress.runtime.headset.pictures.faults import fault_sentences
+    from regress.runtime.headset.placing.placement_file import Placement, write_placement
+    from regress.runtime.headset.recordings.recorded_paths import recorded_size
+    from regress.runtime.headset.recordings.recording import read_recording
     from regress.runtime.ready_made import HEADSET
 
     if sheet is not None:
@@ -135,7 +135,7 @@ def _fits(one: "CameraFitness", predictor: "HeadsetPredictor", pictures: "np.nda
 
 def _is_taken(pictures: "np.ndarray", view: tuple[int, int]) -> bool:
     """Whether `predict` takes pictures (n, h, w) without a placement."""
-    from regress.runtime.headset.pictures import has_shape_of, whole_of_shape
+    from regress.runtime.headset.pictures.picture_file import has_shape_of, whole_of_shape
 
     size = pictures.shape[2], pictures.shape[1]
     return has_shape_of(size, view) or whole_of_shape(size, view) is not None
@@ -148,8 +148,8 @@ def _what_next(
     out: Path,
 ) -> str:
     """What to do with a placement that was written."""
-    from regress.runtime.headset.misfits import Misfit
-    from regress.runtime.headset.placement import whole_view
+    from regress.runtime.headset.fitness.misfits import Misfit
+    from regress.runtime.headset.pictures.placement import whole_view
 
     placed = False
     for one in judged:
@@ -168,7 +168,7 @@ def _what_next(
 def _refuse_recorded(recordings: Iterable[Path], written: dict[str, Path | None]) -> None:
     """Refuse to write over what is read: films, and pictures in folders."""
     from facegen.files import refuse_sources
-    from regress.runtime.headset.halves import whole_of
+    from regress.runtime.headset.pictures.halves import whole_of
 
     paths = [*recordings, *map(whole_of, recordings)]
     read = [file for path in paths for file in (path.iterdir() if path.is_dir() else [path])]

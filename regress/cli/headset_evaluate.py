@@ -25,8 +25,8 @@ def evaluate(
     from facegen.console import say
     from regress.learning.headset.arrays import read_arrays
     from regress.learning.headset.evaluation import evaluate as evaluate_model
-    from regress.runtime.headset.figures import evaluation_to_json
-    from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.headset.network.figures import evaluation_to_json
+    from regress.runtime.headset.network.predictor import load_headset_predictor
 
     predictor = load_headset_predictor(model)
     evaluation = evaluate_model(predictor.graph, predictor.model, read_arrays(arrays), split=split)

@@ -20,7 +20,7 @@ def export(
     models/headset --out exports
     """
     from regress.exporters.headset_interface import interface_of
-    from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.headset.network.predictor import load_headset_predictor
     from regress.runtime.ready_made import model_folder
 
     predictor = load_headset_predictor(model)

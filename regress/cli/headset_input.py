@@ -14,11 +14,11 @@ _FARTHEST_DEG = 60.0
 """To which side a target may lie: eyes turn less."""
 
 if TYPE_CHECKING:
-    from regress.runtime.headset.footage import Footage
-    from regress.runtime.headset.levels import CameraLevels
-    from regress.runtime.headset.neutral import Neutral
-    from regress.runtime.headset.placement import CameraPlacement
-    from regress.runtime.headset.predictor import HeadsetPredictor
+    from regress.runtime.headset.network.predictor import HeadsetPredictor
+    from regress.runtime.headset.person.neutral import Neutral
+    from regress.runtime.headset.pictures.placement import CameraPlacement
+    from regress.runtime.headset.placing.levels import CameraLevels
+    from regress.runtime.headset.recordings.footage import Footage
 
 
 def model_and_dataset(
@@ -154,8 +154,8 @@ def read_footage(
     InputError
         Where neither or both are given, or they cannot be read.
     """
-    from regress.runtime.headset.footage import line_up
-    from regress.runtime.headset.recordings import read_recording, read_rendered
+    from regress.runtime.headset.recordings.footage import line_up
+    from regress.runtime.headset.recordings.recording import read_recording, read_rendered
 
     if (dataset is None) == (not paths):
         raise InputError(
@@ -196,7 +196,7 @@ def read_neutrals(
     InputError
         Where the model, the footage or the options have no use for them.
     """
-    from regress.runtime.headset.neutral import Neutral, neutral_of_frame
+    from regress.runtime.headset.person.neutral import Neutral, neutral_of_frame
 
     if not named or list(named) == ["none"]:
         return []
@@ -239,7 +239,7 @@ def _one_neutral(
     levels: "Mapping[str, CameraLevels]",
 ) -> "list[Neutral]":
     """A frame, a folder's pictures or the calmest frame; nothing where none can be relied on."""
-    from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
+    from regress.runtime.headset.person.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
 
     present = footage.present
     if named == "auto":

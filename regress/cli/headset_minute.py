@@ -12,10 +12,10 @@ from facegen.formats.film import FILMS
 from regress.errors import InputError
 
 if TYPE_CHECKING:
-    from regress.runtime.headset.footage import Footage
-    from regress.runtime.headset.guided import GuidedTake
-    from regress.runtime.headset.placement import CameraPlacement
-    from regress.runtime.headset.predictor import HeadsetPredictor
+    from regress.runtime.headset.guided.minute import GuidedTake
+    from regress.runtime.headset.network.predictor import HeadsetPredictor
+    from regress.runtime.headset.pictures.placement import CameraPlacement
+    from regress.runtime.headset.recordings.footage import Footage
 
 _RANGE = re.compile(r"(\d{1,18})-(\d{1,18})")
 
@@ -89,9 +89,9 @@ def read_minute(
         Where a face's frames cannot be read, or there are none.
     """
     from regress.cli.headset_input import camera_paths, read_footage, targets_of
-    from regress.runtime.headset.guided import FACES, LOOK, REST, GuidedTake
-    from regress.runtime.headset.levels import levels_in
-    from regress.runtime.headset.placement_file import read_placement
+    from regress.runtime.headset.guided.minute import FACES, LOOK, REST, GuidedTake
+    from regress.runtime.headset.placing.levels import levels_in
+    from regress.runtime.headset.placing.placement_file import read_placement
     from regress.runtime.stages.frame_clock import USUAL_FPS
 
     named = {face: text for face, text in zip(FACES, given, strict=False) if text is not None}

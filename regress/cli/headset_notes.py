@@ -5,15 +5,15 @@ from pathlib import Path
 
 from facegen.console import say
 from regress.errors import InputError
-from regress.runtime.headset.compass import eye_compass
-from regress.runtime.headset.footage import Footage
-from regress.runtime.headset.looks import levels_of
-from regress.runtime.headset.orientation import told_by_compass, told_orientation
-from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.points import check_points
-from regress.runtime.headset.predictor import HeadsetPredictor
-from regress.runtime.headset.temporal import TAPS
-from regress.runtime.headset.traced_eyes import TracedEye
+from regress.runtime.headset.answers.points import check_points
+from regress.runtime.headset.answers.traced_eyes import TracedEye
+from regress.runtime.headset.network.predictor import HeadsetPredictor
+from regress.runtime.headset.network.temporal import TAPS
+from regress.runtime.headset.pictures.looks import levels_of
+from regress.runtime.headset.pictures.placement import CameraPlacement
+from regress.runtime.headset.placing.compass import eye_compass
+from regress.runtime.headset.placing.orientation import told_by_compass, told_orientation
+from regress.runtime.headset.recordings.footage import Footage
 
 _SAME_RATE = 0.05
 """Relative difference of frame rates that --temporal does not speak of: 29.97 are 30."""

@@ -8,12 +8,12 @@ from facegen.console import say
 from regress.errors import InputError
 
 if TYPE_CHECKING:
-    from regress.runtime.headset.footage import Footage
-    from regress.runtime.headset.levels import CameraLevels
-    from regress.runtime.headset.neutral import Neutral
-    from regress.runtime.headset.person import Person
-    from regress.runtime.headset.placement import CameraPlacement
-    from regress.runtime.headset.predictor import HeadsetPredictor
+    from regress.runtime.headset.network.predictor import HeadsetPredictor
+    from regress.runtime.headset.person.neutral import Neutral
+    from regress.runtime.headset.person.person import Person
+    from regress.runtime.headset.pictures.placement import CameraPlacement
+    from regress.runtime.headset.placing.levels import CameraLevels
+    from regress.runtime.headset.recordings.footage import Footage
 
 
 def read_own(predictor: "HeadsetPredictor", path: Path | None, *, still: bool) -> "Person | None":
@@ -24,7 +24,7 @@ def read_own(predictor: "HeadsetPredictor", path: Path | None, *, still: bool) -
     InputError
         Where it is not.
     """
-    from regress.runtime.headset.person import read_person
+    from regress.runtime.headset.person.person import read_person
 
     if path is None:
         return None
@@ -56,7 +56,7 @@ def tell_of_views(
     path: Path | None,
 ) -> None:
     """Say where a person was calibrated through other views, or with other words of the cameras, than these."""
-    from regress.runtime.headset.person import seen_as
+    from regress.runtime.headset.person.person import seen_as
 
     if person is not None and person.seen_as not in (None, seen_as(places, predictor.graph.told_table)):
         say(
@@ -74,8 +74,8 @@ def neutrals_of(
     """The neutral pictures of a person's file; none without one, or where a camera in use has none there."""
     if person is None or not person.neutral:
         return []
-    from regress.runtime.headset.neutral import Neutral
-    from regress.runtime.headset.person import unpacked_picture
+    from regress.runtime.headset.person.neutral import Neutral
+    from regress.runtime.headset.person.person import unpacked_picture
 
     used = [name for name, there in zip(footage.cameras, footage.given, strict=True) if there]
     lacking = [name for name in used if name not in person.neutral]

@@ -174,14 +174,14 @@ def predict(
     from regress.cli.output import output_of
     from regress.cli.results import check_targets, needs_times, write_prediction
     from regress.errors import InputError
-    from regress.runtime.headset.film import check_film_name, write_film
-    from regress.runtime.headset.halves import whole_of
-    from regress.runtime.headset.levels import levelled, levels_of_cameras
-    from regress.runtime.headset.placement_file import read_placement
-    from regress.runtime.headset.points import points_csv
-    from regress.runtime.headset.predict import predict_footage
-    from regress.runtime.headset.predictor import load_headset_predictor
-    from regress.runtime.headset.traced_eyes import eyes_csv, traced_eyes
+    from regress.runtime.headset.answers.film import check_film_name, write_film
+    from regress.runtime.headset.answers.points import points_csv
+    from regress.runtime.headset.answers.predict import predict_footage
+    from regress.runtime.headset.answers.traced_eyes import eyes_csv, traced_eyes
+    from regress.runtime.headset.network.predictor import load_headset_predictor
+    from regress.runtime.headset.pictures.halves import whole_of
+    from regress.runtime.headset.placing.levels import levelled, levels_of_cameras
+    from regress.runtime.headset.placing.placement_file import read_placement
     from regress.runtime.stages.frame_clock import USUAL_FPS
     from regress.runtime.writers.csv_table import confidence_csv, weights_csv
 

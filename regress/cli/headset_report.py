@@ -56,7 +56,7 @@ def report(
     from regress.learning.headset.worst import worst_frames
     from regress.report.headset_page import Judged, write_headset_report
     from regress.report.people_curve import CurvePoint
-    from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.headset.network.predictor import load_headset_predictor
     from regress.timing import time_headset
 
     refuse_ending(out, ".html", ".htm", what="a report")
@@ -113,7 +113,7 @@ def _write_figures(
     points: "Sequence[CurvePoint]",
     timings: Sequence[tuple[str, float]],
 ) -> None:
-    from regress.runtime.headset.figures import evaluation_to_json
+    from regress.runtime.headset.network.figures import evaluation_to_json
 
     document = {
         "data": {one.title: evaluation_to_json(one.figures) for one in judged},

@@ -26,8 +26,8 @@ def temporal(
     """
     from regress.learning.headset.arrays import read_arrays
     from regress.learning.headset.taps import fit_temporal
-    from regress.runtime.headset.folder import describe_headset_model
-    from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.headset.network.folder import describe_headset_model
+    from regress.runtime.headset.network.predictor import load_headset_predictor
     from regress.runtime.ready_made import model_folder, ready_made_models
 
     folder = model_folder(model)

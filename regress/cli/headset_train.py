@@ -101,7 +101,7 @@ def train(
     importlib.import_module("torch")  # first, so that its extra is named: it brings what the others need
     from regress.learning.headset.arrays import read_arrays
     from regress.learning.headset.training import train_headset
-    from regress.runtime.headset.folder import read_headset_model
+    from regress.runtime.headset.network.folder import read_headset_model
     from regress.runtime.ready_made import model_folder
 
     frames = read_arrays(arrays)
@@ -132,7 +132,7 @@ def train(
 
 def side_notes(cameras: tuple[str, ...]) -> list[str]:
     """What names of cameras leave open, a sentence; nothing where they say all."""
-    from regress.runtime.headset.parts import without_side
+    from regress.runtime.headset.network.parts import without_side
 
     lost = without_side(cameras)
     if not lost:

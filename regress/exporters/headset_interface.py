@@ -2,14 +2,14 @@
 
 from typing import Any
 
-from regress.runtime.headset.estimates import (
+from regress.runtime.headset.network.estimates import (
     CAMERA_INPUT,
     GRAPH_OUTPUTS,
     POINTS,
     TERMS_TOLD,
     points_output,
 )
-from regress.runtime.headset.model import HeadsetModel
+from regress.runtime.headset.network.model import HeadsetModel
 
 FORMAT = "regress-headset"
 

@@ -31,8 +31,8 @@ from regress.report.headset_tables import (
 from regress.report.histogram import histogram
 from regress.report.people_curve import CurvePoint, people_curve
 from regress.report.template import rendered
-from regress.runtime.headset.figures import Evaluation
-from regress.runtime.headset.model import HeadsetModel
+from regress.runtime.headset.network.figures import Evaluation
+from regress.runtime.headset.network.model import HeadsetModel
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -11,8 +11,8 @@ from regress.learning.headset.comparison import Rivalry
 from regress.report.axes import figure
 from regress.report.content import grade
 from regress.report.people_curve import CurvePoint
-from regress.runtime.headset.figures import Evaluation, Summary
-from regress.runtime.headset.model import Temporal
+from regress.runtime.headset.network.figures import Evaluation, Summary
+from regress.runtime.headset.network.model import Temporal
 
 Entry = TypeVar("Entry")
 

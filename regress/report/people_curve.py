@@ -7,7 +7,7 @@ import numpy as np
 
 from regress.report.axes import Scale, label
 from regress.report.svg import line, picture, text
-from regress.runtime.headset.figures import Evaluation
+from regress.runtime.headset.network.figures import Evaluation
 
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 900, 300, 52, 150, 14, 46
 SERIES = (("uncalibrated", "test", "no neutral picture"), ("same_seat", "train", "neutral picture"))

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regress.runtime.headset.model import CameraInput
-from regress.runtime.headset.neutral_codes import cut_network
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.network.model import CameraInput
+from regress.runtime.headset.network.neutral_codes import cut_network
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
 from regress.runtime.onnx_cut import cut
 from regress.runtime.onnx_session import open_session
 from regress.runtime.protobuf import bytes_field, fields, number_field

@@ -12,7 +12,7 @@ from regress.cli.headset_input import model_and_dataset
 from regress.errors import InputError
 from regress.model_card import card_markdown, describe_model
 from regress.runtime import ready_made
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.network.predictor import load_headset_predictor
 from regress.runtime.model import KEYPOINTS
 from regress.runtime.ready_made import HEADSET, LANDMARKS, model_folder, ready_made_models
 from tests.samples import FACE, PICTURES, assert_face_as_recorded, assert_headset_as_recorded

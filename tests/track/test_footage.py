@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from regress.runtime.headset.footage import line_up
-from regress.runtime.headset.recordings import read_recording
+from regress.runtime.headset.recordings.footage import line_up
+from regress.runtime.headset.recordings.recording import read_recording
 from regress.runtime.sample import Sample
 from tests.track.virtual import noise
 from track.cli import main

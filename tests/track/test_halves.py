@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regress.runtime.headset.halves import HALVES, half_of, half_size, split_half
-from regress.runtime.headset.recorded_paths import recorded_size
-from regress.runtime.headset.recordings import read_recording
+from regress.runtime.headset.pictures.halves import HALVES, half_of, half_size, split_half
+from regress.runtime.headset.recordings.recorded_paths import recorded_size
+from regress.runtime.headset.recordings.recording import read_recording
 from tests.track.virtual import Switches, VirtualCamera
 from track.errors import CameraError
 from track.sources import Capture, Pace, open_capture

@@ -79,7 +79,7 @@ def camera_texts(cameras: Sequence[str], *, headset: bool) -> dict[str, str]:
 
 def is_headset(wishes: Wishes) -> bool:
     """Whether the model is a headset's; cameras with names say so where no model is named."""
-    from regress.runtime.headset.predictor import is_headset_model
+    from regress.runtime.headset.network.predictor import is_headset_model
 
     if wishes.model is not None:
         return is_headset_model(wishes.model)

@@ -13,7 +13,7 @@ from track.profile.places import camera_key, known_path, person_of, read_stored
 from track.profile.profile import Profile
 
 if TYPE_CHECKING:
-    from regress.runtime.headset.placement import CameraPlacement
+    from regress.runtime.headset.pictures.placement import CameraPlacement
     from track.session.pipeline import Pipeline
 
 _NOTHING_READ = {"ranges": {}, "rests": {}, "blinks": {}}
@@ -103,7 +103,7 @@ def _placed(path: Path, profile: Profile, pipeline: "Pipeline", say: Callable[[s
 
 def _part_of(placement: "CameraPlacement | None") -> tuple[float, float, float, float, bool]:
     """Which part of its camera's pictures counts, without their levels; all of them without a placement."""
-    from regress.runtime.headset.placement import CameraPlacement
+    from regress.runtime.headset.pictures.placement import CameraPlacement
 
     seen = placement or CameraPlacement()
     return (seen.x, seen.y, seen.size, seen.roll_deg, seen.mirror)

@@ -27,7 +27,7 @@ def record(
 
     from facegen.console import counted, progress, say
     from facegen.files import check_new_folder
-    from regress.runtime.headset.halves import split_half
+    from regress.runtime.headset.pictures.halves import split_half
     from track.cli.opening import Wishes, are_named, camera_texts, open_cameras
     from track.cli.running import ended_by_signals
     from track.errors import CameraError, InputError

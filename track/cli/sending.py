@@ -78,7 +78,7 @@ def check_files(
     InputError
         Where that was asked for.
     """
-    from regress.runtime.headset.pictures import PICTURES
+    from regress.runtime.headset.pictures.picture_file import PICTURES
     from regress.runtime.ready_made import model_folder
     from track.sinks.overwriting import refuse_overwriting
 

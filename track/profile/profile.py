@@ -38,9 +38,9 @@ from facegen.conventions import BLENDSHAPE_INDEX, CAMERA_TERMS
 from facegen.documents import load_toml
 from facegen.files import output_errors, write_whole
 from facegen.refusals import refusal
-from regress.runtime.headset.person import FULL_GAIN as HEADSET_GAIN
-from regress.runtime.headset.person import HIGHEST_REST, OwnEye
-from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.person.person import FULL_GAIN as HEADSET_GAIN
+from regress.runtime.headset.person.person import HIGHEST_REST, OwnEye
+from regress.runtime.headset.pictures.placement import CameraPlacement
 from regress.runtime.stages.own_blinks import Ends
 from track.errors import InputError
 from track.profile.neutral import MOST_CAMERAS, Name, NeutralFace, Record
@@ -53,7 +53,8 @@ LARGEST_GAIN = 4.0
 
 FULL_GAIN = 2.0
 """Most by which a range stretches a shape: beyond it what is stretched is noise (regress.learning.training.gain). Of
-headset networks `regress.runtime.headset.person.FULL_GAIN` is, which was measured; blinks are held to it nowhere."""
+headset networks `regress.runtime.headset.person.person.FULL_GAIN` is, which was measured; blinks are never held to
+it."""
 
 SMALLEST_RANGE = 0.05
 """Reading of a full movement below which the model does not see it."""

@@ -9,7 +9,7 @@ from itertools import combinations
 import cv2
 import numpy as np
 
-from regress.runtime.headset.typical import TYPICAL_SIDE
+from regress.runtime.headset.pictures.typical import TYPICAL_SIDE
 from regress.runtime.sample import Sample
 from regress.runtime.stages.frame_clock import FrameClock
 from regress.runtime.stages.stage import Stage

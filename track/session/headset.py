@@ -9,16 +9,22 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES
 from regress.runtime.even_rows import even_rows
-from regress.runtime.headset.eye_reader import EyeReader
-from regress.runtime.headset.faults import RESHAPE, Fault
-from regress.runtime.headset.levels import Levels
-from regress.runtime.headset.networks import HeadsetNetworks
-from regress.runtime.headset.partly import seen_shapes
-from regress.runtime.headset.parts import is_of_one_eye, part_of, side_of
-from regress.runtime.headset.person import HIGHEST_REST, OwnEye, Person, kept_openness, unpacked_picture
-from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.placement_file import Placement, read_placement
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.answers.eye_reader import EyeReader
+from regress.runtime.headset.answers.networks import HeadsetNetworks
+from regress.runtime.headset.answers.partly import seen_shapes
+from regress.runtime.headset.network.parts import is_of_one_eye, part_of, side_of
+from regress.runtime.headset.network.predictor import load_headset_predictor
+from regress.runtime.headset.person.person import (
+    HIGHEST_REST,
+    OwnEye,
+    Person,
+    kept_openness,
+    unpacked_picture,
+)
+from regress.runtime.headset.pictures.faults import RESHAPE, Fault
+from regress.runtime.headset.pictures.placement import CameraPlacement
+from regress.runtime.headset.placing.levels import Levels
+from regress.runtime.headset.placing.placement_file import Placement, read_placement
 from regress.runtime.sample import Sample
 from track.errors import InputError
 from track.profile.neutral import NeutralFace, base64_of
@@ -31,7 +37,7 @@ from track.session.upright import UprightWatch
 
 LEAST_MOVEMENT = 0.15
 """Of a weight, as the network reads it without a neutral face: what calm frames of a take differ by
-(regress.runtime.headset.neutral)."""
+(regress.runtime.headset.person.neutral)."""
 
 RESTING_FRAMES = 16
 """Of a resting face that are compared with its neutral pictures, at once: each costs a millisecond or two."""

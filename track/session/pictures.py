@@ -5,8 +5,8 @@ from dataclasses import replace
 import cv2
 import numpy as np
 
-from regress.runtime.headset.faults import Fault
-from regress.runtime.headset.soundness import PictureSoundness
+from regress.runtime.headset.pictures.faults import Fault
+from regress.runtime.headset.recordings.soundness import PictureSoundness
 from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from regress.runtime.headset.person import OwnEye
-from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.person.person import OwnEye
+from regress.runtime.headset.pictures.placement import CameraPlacement
 from regress.runtime.sample import Sample
 from regress.runtime.stages.filters import FILTERS
 from regress.runtime.stages.one_euro import OneEuro

@@ -7,7 +7,7 @@ import numpy as np
 
 from facegen.conventions import BLINK_INDICES
 from regress.runtime.heads.fit import FACING
-from regress.runtime.headset.parts import side_of
+from regress.runtime.headset.network.parts import side_of
 from regress.runtime.sample import Sample
 from regress.runtime.stages.gaze import LOOKS, look_weights
 from regress.runtime.stages.head import angles_of

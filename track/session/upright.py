@@ -5,9 +5,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from regress.runtime.headset.compass import eye_compass
-from regress.runtime.headset.orientation import told_of_shares
-from regress.runtime.headset.parts import is_of_one_eye, side_of
+from regress.runtime.headset.network.parts import is_of_one_eye, side_of
+from regress.runtime.headset.placing.compass import eye_compass
+from regress.runtime.headset.placing.orientation import told_of_shares
 from regress.runtime.sample import Sample
 from regress.runtime.stages.stage import Stage
 

@@ -7,7 +7,7 @@ from enum import Enum
 
 import numpy as np
 
-from regress.runtime.headset.halves import half_of
+from regress.runtime.headset.pictures.halves import half_of
 from regress.runtime.sample import Sample
 from track.sources.backlog import LONGEST_S, of_one_moment
 from track.sources.camera import PAUSES_S, Camera, Opener

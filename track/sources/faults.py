@@ -4,7 +4,7 @@ from enum import Enum
 
 import numpy as np
 
-from regress.runtime.headset.faults import is_black
+from regress.runtime.headset.pictures.faults import is_black
 from track.sources.source import Picture
 
 FROZEN_S = 0.5

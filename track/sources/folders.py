@@ -13,7 +13,7 @@ import numpy as np
 from facegen.documents import read_bytes
 from facegen.formats.natural_order import natural_order
 from facegen.formats.picture_size import MOST_PIXELS, picture_size
-from regress.runtime.headset.pictures import MOST_PICTURE_BYTES, PICTURES
+from regress.runtime.headset.pictures.picture_file import MOST_PICTURE_BYTES, PICTURES
 from track.errors import CameraError, InputError
 from track.sources.faults import CameraFault
 from track.sources.numbering import last_number, numbers_of, pictures_in

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from regress.runtime.headset.pictures import PICTURES
+from regress.runtime.headset.pictures.picture_file import PICTURES
 
 _NUMBER = re.compile(r"(.*?)(\d+)\D*", re.DOTALL)
 """What stands before the last number of a file's name, and that number, before its ending."""

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from regress.runtime.headset.halves import split_half
+from regress.runtime.headset.pictures.halves import split_half
 from track.errors import CameraError
 from track.sources.addresses import AddressSource, is_address, without_secrets
 from track.sources.camera_memory import CameraMemory

@@ -4,7 +4,7 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES, BLINK_INDICES
 from regress.learning.headset.geometry import FaceGeometry
-from regress.runtime.headset.figures import Summary
+from regress.runtime.headset.network.figures import Summary
 
 OPEN = 0.3
 """Weight of eyeBlink up to which an eye counts as open."""

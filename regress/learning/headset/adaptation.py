@@ -14,9 +14,9 @@ from onnx import helper, numpy_helper
 
 from facegen.conventions import BLENDSHAPES
 from regress.errors import ModelError
-from regress.runtime.headset.graph import HeadsetGraph
-from regress.runtime.headset.model import HeadsetModel
-from regress.runtime.headset.outputs import MIRROR
+from regress.runtime.headset.network.graph import HeadsetGraph
+from regress.runtime.headset.network.model import HeadsetModel
+from regress.runtime.headset.network.outputs import MIRROR
 
 PULLS = (3.0, 10.0, 30.0, 100.0, 300.0)
 """Penalties on changes of the heads that are tried: below 3 eight rendered faces are learnt by heart."""

@@ -14,7 +14,7 @@ from regress.errors import InputError
 from regress.learning.headset.geometry import FaceGeometry
 from regress.learning.labels import Columns, read_labels
 from regress.runtime.documents import checked, read_document
-from regress.runtime.headset.model import MOST_CAMERAS, MOST_FPS, CameraInput
+from regress.runtime.headset.network.model import MOST_CAMERAS, MOST_FPS, CameraInput
 
 VERSION = 3
 """Of arrays.json."""

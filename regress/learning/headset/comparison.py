@@ -8,7 +8,7 @@ from regress.errors import InputError
 from regress.learning.headset.accuracy import share_better
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import COMBINED, conditions, estimate
-from regress.runtime.headset.predictor import HeadsetPredictor
+from regress.runtime.headset.network.predictor import HeadsetPredictor
 
 
 @dataclass(frozen=True, kw_only=True)

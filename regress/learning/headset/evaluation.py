@@ -8,10 +8,16 @@ from facegen.conventions import BLENDSHAPES
 from regress.errors import InputError
 from regress.learning.headset.accuracy import SCORED, r2_of, summary
 from regress.learning.headset.arrays import HeadsetArrays
-from regress.runtime.headset.estimates import Estimates
-from regress.runtime.headset.figures import DeviationFigures, Evaluation, GroupErrors, ShapeFigures, Summary
-from regress.runtime.headset.graph import HeadsetGraph
-from regress.runtime.headset.model import HeadsetModel
+from regress.runtime.headset.network.estimates import Estimates
+from regress.runtime.headset.network.figures import (
+    DeviationFigures,
+    Evaluation,
+    GroupErrors,
+    ShapeFigures,
+    Summary,
+)
+from regress.runtime.headset.network.graph import HeadsetGraph
+from regress.runtime.headset.network.model import HeadsetModel
 
 NEUTRAL_SOURCES = ("none", "same_seat", "other_seat")
 """Seats of the headset that neutral pictures may come from."""

@@ -7,8 +7,8 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from regress.errors import InputError
 from regress.learning.headset.adaptation import KnownFrames
-from regress.runtime.headset.guided import FACES, LOOK, REST, WAY_INTO_FACE, GuidedTake, neutral_row
-from regress.runtime.headset.predictor import HeadsetPredictor
+from regress.runtime.headset.guided.minute import FACES, LOOK, REST, WAY_INTO_FACE, GuidedTake, neutral_row
+from regress.runtime.headset.network.predictor import HeadsetPredictor
 
 STRETCHES = 8
 """Of time, into which frames with a table of weights are parted to be held out."""

@@ -5,9 +5,9 @@ import numpy as np
 from facegen.conventions import VIEW_POINTS
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.runtime.even_rows import even_rows
-from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.looks import CameraLooks, looks_of
-from regress.runtime.headset.traced_eyes import eye_features
+from regress.runtime.headset.answers.traced_eyes import eye_features
+from regress.runtime.headset.eyes.eye_points import EyePoints
+from regress.runtime.headset.pictures.looks import CameraLooks, looks_of
 
 _FEWEST = 50
 """Frames that show all of an eye, of which a map to its gaze is made."""

@@ -6,12 +6,12 @@ from regress.errors import InputError
 from regress.learning.headset.accuracy import summary
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import Condition, estimate
-from regress.runtime.headset.estimates import Estimates
-from regress.runtime.headset.figures import ClipSummary
-from regress.runtime.headset.model import Temporal
-from regress.runtime.headset.outputs import MIRROR, WEIGHTS
-from regress.runtime.headset.predictor import HeadsetPredictor
-from regress.runtime.headset.temporal import TAPS, convolve, lagged
+from regress.runtime.headset.network.estimates import Estimates
+from regress.runtime.headset.network.figures import ClipSummary
+from regress.runtime.headset.network.model import Temporal
+from regress.runtime.headset.network.outputs import MIRROR, WEIGHTS
+from regress.runtime.headset.network.predictor import HeadsetPredictor
+from regress.runtime.headset.network.temporal import TAPS, convolve, lagged
 
 _RIDGE = 1e-3
 """Of the mean squared difference between frames: an output that says the same throughout keeps its own frame alone."""

@@ -7,7 +7,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPES
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import Condition, estimate
-from regress.runtime.headset.predictor import HeadsetPredictor
+from regress.runtime.headset.network.predictor import HeadsetPredictor
 
 _SHAPES = 3
 """Told of each frame: those whose error moves the face most."""

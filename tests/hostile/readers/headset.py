@@ -37,8 +37,8 @@ def _placement(folder: Path, workshop: Workshop) -> None:
 
 def _person(folder: Path, workshop: Workshop) -> None:
     _take(folder, workshop)
-    from regress.runtime.headset.person import OwnEye, Person, packed_picture, write_person
-    from regress.runtime.headset.predictor import load_headset_predictor
+    from regress.runtime.headset.network.predictor import load_headset_predictor
+    from regress.runtime.headset.person.person import OwnEye, Person, packed_picture, write_person
 
     model = load_headset_predictor(workshop.headset_model).model
     person = Person(

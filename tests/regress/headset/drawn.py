@@ -9,7 +9,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from facegen.conventions import BLENDSHAPES, CAMERA_TERMS, IRIS_POINTS, VIEW_POINTS, mirrored_name
-from regress.runtime.headset.parts import part_of
+from regress.runtime.headset.network.parts import part_of
 
 CAMERAS = ("left_eye", "right_eye", "mouth")
 SIDE = 24

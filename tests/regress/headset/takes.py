@@ -6,7 +6,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from regress.runtime.headset.recordings import Recording
+from regress.runtime.headset.recordings.recording import Recording
 
 HEIGHT, WIDTH = 12, 16
 

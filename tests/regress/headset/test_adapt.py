@@ -19,9 +19,9 @@ from regress.learning.headset.adaptation import (
     read_heads,
 )
 from regress.learning.headset.known_frames import known_frames
-from regress.runtime.headset.guided import GuidedTake
-from regress.runtime.headset.outputs import MIRROR
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.guided.minute import GuidedTake
+from regress.runtime.headset.network.outputs import MIRROR
+from regress.runtime.headset.network.predictor import load_headset_predictor
 from regress.runtime.ready_made import model_folder
 
 SAMPLES = Path(__file__).parents[3] / "docs" / "samples"

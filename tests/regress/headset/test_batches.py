@@ -10,7 +10,7 @@ from regress.learning.headset.arrays import HeadsetArrays  # noqa: E402
 from regress.learning.headset.recipe import HeadsetRecipe  # noqa: E402
 from regress.learning.headset.training.batches import TrainingFrames  # noqa: E402
 from regress.learning.headset.training.photometry import draw_photometry  # noqa: E402
-from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN  # noqa: E402
+from regress.runtime.headset.network.outputs import MIRROR, MIRROR_SIGN  # noqa: E402
 
 pytestmark = pytest.mark.slow
 

@@ -9,7 +9,7 @@ torch = pytest.importorskip("torch")
 
 from facegen.conventions import BLENDSHAPES, mirrored_name  # noqa: E402
 from regress.learning.headset.training.blend import blend  # noqa: E402
-from regress.runtime.headset.parts import (  # noqa: E402
+from regress.runtime.headset.network.parts import (  # noqa: E402
     encoder_owners,
     is_symmetric,
     mirror_partner,

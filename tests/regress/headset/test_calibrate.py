@@ -15,9 +15,9 @@ from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
 from facegen.formats.film import encode_film
 from regress.cli import app
 from regress.errors import InputError
-from regress.runtime.headset import guided
-from regress.runtime.headset.guided_gaze import HALF_APART_M
-from regress.runtime.headset.person import (
+from regress.runtime.headset.guided import minute
+from regress.runtime.headset.guided.gaze import HALF_APART_M
+from regress.runtime.headset.person.person import (
     FULL_GAIN,
     OwnEnds,
     OwnEye,
@@ -116,7 +116,7 @@ def test_calibrate_is_told_of_the_cameras_that_predict_is_told_of(run, tmp_path:
 
 def test_where_one_looks_at_rest_is_ones_own(run, tmp_path: Path, monkeypatch):
     """In these frames a look reads most, and no face is refused for it."""
-    monkeypatch.setattr(guided, "HIGHEST_REST", 0.0)
+    monkeypatch.setattr(minute, "HIGHEST_REST", 0.0)
     code, _, said = run("headset", "calibrate", *CAMERAS, "--rest", "20-29", "--out", tmp_path / "anna.json")
     assert code == 2
     assert "is a resting face" in said
@@ -129,7 +129,7 @@ def test_a_few_shapes_that_read_high_at_rest_count_as_rest_and_are_named(
 ):
     at_rest = sorted(read_person(person).rest.items(), key=lambda pair: -pair[1])
     assert not any(name in BLINKS for name, _ in at_rest[:4])
-    monkeypatch.setattr(guided, "HIGHEST_REST", (at_rest[high - 1][1] + at_rest[high][1]) / 2)
+    monkeypatch.setattr(minute, "HIGHEST_REST", (at_rest[high - 1][1] + at_rest[high][1]) / 2)
     out = tmp_path / "anna.json"
     code, _, said = run("headset", "calibrate", *CAMERAS, "--rest", REST, "--out", out)
     assert code == 0, said

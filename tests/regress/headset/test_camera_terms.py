@@ -20,8 +20,8 @@ from regress.learning.headset.training import train_headset  # noqa: E402
 from regress.learning.headset.training.batches import TrainingFrames  # noqa: E402
 from regress.learning.headset.training.loop import answer_to, start_training  # noqa: E402
 from regress.runtime.headset import HeadsetGraph  # noqa: E402
-from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN  # noqa: E402
-from regress.runtime.headset.predictor import load_headset_predictor  # noqa: E402
+from regress.runtime.headset.network.outputs import MIRROR, MIRROR_SIGN  # noqa: E402
+from regress.runtime.headset.network.predictor import load_headset_predictor  # noqa: E402
 from tests.regress.headset.drawn import CAMERAS, write_drawn_arrays  # noqa: E402
 
 QUICK = HeadsetRecipe(input_size=16, code=24, hidden=32, epochs=2, batch=32, camera_terms=True)

@@ -9,8 +9,8 @@ from regress.errors import ModelError
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import evaluate
 from regress.model_card import card_markdown, describe_model
-from regress.runtime.headset.folder import describe_headset_model
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.network.folder import describe_headset_model
+from regress.runtime.headset.network.predictor import load_headset_predictor
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.tiny import write_tiny_model
 

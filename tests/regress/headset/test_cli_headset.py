@@ -13,9 +13,9 @@ from facegen.conventions import BLENDSHAPES
 from regress import timing
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.evaluation import evaluate
-from regress.runtime.headset.estimates import GRAPH_OUTPUTS
-from regress.runtime.headset.figures import evaluation_to_json
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.network.estimates import GRAPH_OUTPUTS
+from regress.runtime.headset.network.figures import evaluation_to_json
+from regress.runtime.headset.network.predictor import load_headset_predictor
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.takes import write_pictures
 from tests.regress.headset.tiny import NAMES, write_tiny_model

@@ -18,10 +18,10 @@ from regress.learning.headset.comparison import compare
 from regress.learning.headset.evaluation import evaluate
 from regress.learning.headset.worst import worst_frames
 from regress.report.headset_page import Judged, write_headset_report
-from regress.runtime.headset.figures import ClipSummary, evaluation_to_json
-from regress.runtime.headset.folder import describe_headset_model, read_headset_model
-from regress.runtime.headset.model import HeadsetTraining, Temporal
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.network.figures import ClipSummary, evaluation_to_json
+from regress.runtime.headset.network.folder import describe_headset_model, read_headset_model
+from regress.runtime.headset.network.model import HeadsetTraining, Temporal
+from regress.runtime.headset.network.predictor import load_headset_predictor
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.tiny import NAMES, write_tiny_model
 

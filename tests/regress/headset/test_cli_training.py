@@ -7,7 +7,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from regress.cli.headset_train import side_notes
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.network.predictor import load_headset_predictor
 
 pytest.importorskip("torch")
 

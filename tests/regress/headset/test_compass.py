@@ -7,15 +7,15 @@ import cv2
 import numpy as np
 import pytest
 
-from regress.runtime.headset.compass import ORIENTATIONS, eye_compass
-from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.footage import line_up
-from regress.runtime.headset.found_placement import FoundPlacement
-from regress.runtime.headset.orientation import told_by_compass
-from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.placement_search import find_placement
-from regress.runtime.headset.placement_steps import Search
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.eyes.eye_points import EyePoints
+from regress.runtime.headset.network.predictor import load_headset_predictor
+from regress.runtime.headset.pictures.placement import CameraPlacement
+from regress.runtime.headset.placing.compass import ORIENTATIONS, eye_compass
+from regress.runtime.headset.placing.found_placement import FoundPlacement
+from regress.runtime.headset.placing.orientation import told_by_compass
+from regress.runtime.headset.placing.placement_search import find_placement
+from regress.runtime.headset.placing.placement_steps import Search
+from regress.runtime.headset.recordings.footage import line_up
 from tests.regress.headset.takes import recording, write_take
 
 pytestmark = pytest.mark.slow

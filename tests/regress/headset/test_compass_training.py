@@ -11,7 +11,7 @@ from regress.errors import InputError, Interrupted  # noqa: E402
 from regress.learning.headset.arrays import HeadsetArrays, read_arrays  # noqa: E402
 from regress.learning.headset.compass import train_compass  # noqa: E402
 from regress.learning.headset.compass.views import draw_views, eyes_of  # noqa: E402
-from regress.runtime.headset.compass import COMPASS_SIDE, EyeCompass  # noqa: E402
+from regress.runtime.headset.placing.compass import COMPASS_SIDE, EyeCompass  # noqa: E402
 from regress.runtime.onnx_session import open_session  # noqa: E402
 from tests.regress.headset.drawn import write_drawn_arrays  # noqa: E402
 

@@ -21,7 +21,7 @@ from regress.errors import InputError, ModelError
 from regress.exporters.headset_interface import interface_of
 from regress.learning.headset.arrays import read_arrays
 from regress.report.headset_page import write_headset_report
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.network.predictor import load_headset_predictor
 from regress.runtime.onnx_file import MOST_NODES, graph_fault
 from tests.regress.headset.tiny import NAMES, tiny_graph, write_tiny_model
 from tests.regress.test_model_damage import OTHER, paths_of, set_at

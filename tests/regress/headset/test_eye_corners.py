@@ -8,11 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regress.cli.headset_input import read_footage
-from regress.runtime.headset.eye_corners import EyeCorners, calm_corners
-from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.eye_reader import EyeReader
-from regress.runtime.headset.person import OwnEye, Person
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.answers.eye_reader import EyeReader
+from regress.runtime.headset.eyes.eye_corners import EyeCorners, calm_corners
+from regress.runtime.headset.eyes.eye_points import EyePoints
+from regress.runtime.headset.network.predictor import load_headset_predictor
+from regress.runtime.headset.person.person import OwnEye, Person
 from tests.regress.headset.test_traced_eyes import EYE, seen_points
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"

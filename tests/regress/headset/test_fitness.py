@@ -11,17 +11,23 @@ import numpy as np
 import pytest
 
 from regress.errors import InputError
-from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.fitness import _are_the_same, judge
-from regress.runtime.headset.fitness_sheet import fitness_sheet
-from regress.runtime.headset.found_placement import FoundPlacement
-from regress.runtime.headset.looks import flicker_of
-from regress.runtime.headset.misfits import Misfit
-from regress.runtime.headset.placement import CameraPlacement, whole_view
-from regress.runtime.headset.placement_file import read_placement
-from regress.runtime.headset.placement_search import find_placement
-from regress.runtime.headset.placement_steps import Search, _apart, _is_as_drawn, _moved, placement_of_points
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.eyes.eye_points import EyePoints
+from regress.runtime.headset.fitness.fitness import _are_the_same, judge
+from regress.runtime.headset.fitness.misfits import Misfit
+from regress.runtime.headset.fitness.sheet import fitness_sheet
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.pictures.looks import flicker_of
+from regress.runtime.headset.pictures.placement import CameraPlacement, whole_view
+from regress.runtime.headset.placing.found_placement import FoundPlacement
+from regress.runtime.headset.placing.placement_file import read_placement
+from regress.runtime.headset.placing.placement_search import find_placement
+from regress.runtime.headset.placing.placement_steps import (
+    Search,
+    _apart,
+    _is_as_drawn,
+    _moved,
+    placement_of_points,
+)
 from tests.regress.headset.takes import write_take
 from tests.regress.headset.tiny import write_tiny_model
 

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regress.runtime.headset.frame_names import FrameNames, frame_names
-from regress.runtime.headset.matching import match
+from regress.runtime.headset.recordings.frame_names import FrameNames, frame_names
+from regress.runtime.headset.recordings.matching import match
 from tests.regress.headset.takes import recording
 
 Call = Callable[[int, datetime], str]

@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPES
 from regress.cli.headset_input import read_footage
-from regress.runtime.headset.eye_reader import EyeReader
-from regress.runtime.headset.footage import Footage
-from regress.runtime.headset.gaze_lead import GazeLead, led_take
-from regress.runtime.headset.person import OwnEye, Person
-from regress.runtime.headset.predict import predict_footage
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.runtime.headset.traced_eyes import traced_eyes
+from regress.runtime.headset.answers.eye_reader import EyeReader
+from regress.runtime.headset.answers.predict import predict_footage
+from regress.runtime.headset.answers.traced_eyes import traced_eyes
+from regress.runtime.headset.eyes.gaze_lead import GazeLead, led_take
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.person.person import OwnEye, Person
+from regress.runtime.headset.recordings.footage import Footage
 from regress.runtime.stages.gaze import LOOKS, look_weights
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"

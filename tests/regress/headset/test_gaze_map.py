@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regress.runtime.headset.gaze_map import gaze_map
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.runtime.headset.traced_eyes import eye_features
+from regress.runtime.headset.answers.traced_eyes import eye_features
+from regress.runtime.headset.eyes.gaze_map import gaze_map
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
 from tests.regress.headset.test_traced_eyes import EYE, seen_points
 
 

@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regress.cli.headset_input import read_footage
-from regress.runtime.headset.glances import glances
-from regress.runtime.headset.guided import GuidedTake, person_of
-from regress.runtime.headset.own_gaze import own_gaze
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.eyes.glances import glances
+from regress.runtime.headset.eyes.own_gaze import own_gaze
+from regress.runtime.headset.guided.minute import GuidedTake, person_of
+from regress.runtime.headset.network.predictor import load_headset_predictor
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
 AT, SHUT_GAZE = 20, np.array([2.0, -30.0])

@@ -14,11 +14,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regress.errors import InputError
-from regress.runtime.headset import film_frames, recordings
-from regress.runtime.headset import pictures as picture_files
-from regress.runtime.headset.faults import Fault
-from regress.runtime.headset.footage import line_up
-from regress.runtime.headset.recordings import Recording, read_recording, read_rendered
+from regress.runtime.headset.pictures import picture_file
+from regress.runtime.headset.pictures.faults import Fault
+from regress.runtime.headset.recordings import film_frames, recording
+from regress.runtime.headset.recordings.footage import line_up
+from regress.runtime.headset.recordings.recording import Recording, read_recording, read_rendered
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, write_pictures
 
 SIZES = {"left_eye": (WIDTH, HEIGHT), "mouth": (WIDTH, HEIGHT)}
@@ -95,7 +95,7 @@ def test_a_bad_picture_costs_its_frame(kind: str, tmp_path: Path, monkeypatch: p
         sizes.append(0 if grey is None else grey.size)
         return grey
 
-    monkeypatch.setattr(picture_files.cv2, "imdecode", watched)
+    monkeypatch.setattr(picture_file.cv2, "imdecode", watched)
     spoil, fault = SPOILERS[kind]
     for number in (1, 3):
         _picture(tmp_path / f"{number}.png")
@@ -113,7 +113,7 @@ def test_a_take_has_only_so_many_frames(tmp_path: Path, monkeypatch: pytest.Monk
         film.write(picture)
     film.release()
     assert len(_read(tmp_path / "a.avi").numbers) == 4
-    monkeypatch.setattr(recordings, "MOST_FRAMES", 3)
+    monkeypatch.setattr(recording, "MOST_FRAMES", 3)
     for path in (tmp_path / "take", tmp_path / "a.avi"):
         with pytest.raises(InputError, match="more than 3 frames"):
             _read(path)

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from regress.exporters.headset_interface import interface_of
-from regress.runtime.headset.estimates import GRAPH_OUTPUTS
-from regress.runtime.headset.folder import read_headset_model
+from regress.runtime.headset.network.estimates import GRAPH_OUTPUTS
+from regress.runtime.headset.network.folder import read_headset_model
 from tests.regress.headset.tiny import write_tiny_model
 
 MODULE = Path(__file__).parents[3] / "docs" / "examples" / "headset.js"

@@ -8,8 +8,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regress.exporters.headset_interface import interface_of
-from regress.runtime.headset.footage import line_up
-from regress.runtime.headset.levels import (
+from regress.runtime.headset.network.predictor import load_headset_predictor
+from regress.runtime.headset.pictures.looks import (
+    CameraLooks,
+    flicker_of,
+    levels_of,
+    looks_of,
+    rim_of,
+    sharpness_of,
+)
+from regress.runtime.headset.pictures.placement import CameraPlacement
+from regress.runtime.headset.placing.levels import (
     CameraLevels,
     Levels,
     brightness_of,
@@ -17,9 +26,7 @@ from regress.runtime.headset.levels import (
     levels_in,
     levels_of_cameras,
 )
-from regress.runtime.headset.looks import CameraLooks, flicker_of, levels_of, looks_of, rim_of, sharpness_of
-from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.recordings.footage import line_up
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording
 
 LOOKS = CameraLooks(

@@ -9,11 +9,11 @@ import pytest
 
 from facegen.conventions import BLENDSHAPES
 from regress.errors import InputError
-from regress.runtime.headset.model import Temporal
-from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.predict import HeadsetStream
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.runtime.headset.temporal import TAPS
+from regress.runtime.headset.answers.predict import HeadsetStream
+from regress.runtime.headset.network.model import Temporal
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.network.temporal import TAPS
+from regress.runtime.headset.pictures.placement import CameraPlacement
 from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
 from regress.runtime.stages.one_euro import OneEuro

@@ -6,9 +6,9 @@ import cv2
 import numpy as np
 import pytest
 
-from regress.runtime.headset.fitness import checked_rows
-from regress.runtime.headset.recorded_paths import recorded_size
-from regress.runtime.headset.recordings import read_recording
+from regress.runtime.headset.fitness.fitness import checked_rows
+from regress.runtime.headset.recordings.recorded_paths import recorded_size
+from regress.runtime.headset.recordings.recording import read_recording
 from tests.regress.headset.takes import write_pictures
 
 

@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from regress.errors import InputError
-from regress.runtime.headset.faults import Fault
-from regress.runtime.headset.footage import line_up
-from regress.runtime.headset.matching import match
-from regress.runtime.headset.moments import Moments
-from regress.runtime.headset.recordings import read_recording
+from regress.runtime.headset.pictures.faults import Fault
+from regress.runtime.headset.recordings.footage import line_up
+from regress.runtime.headset.recordings.matching import match
+from regress.runtime.headset.recordings.moments import Moments
+from regress.runtime.headset.recordings.recording import read_recording
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures
 
 SIZES = {"left_eye": (WIDTH, HEIGHT), "mouth": (WIDTH, HEIGHT)}

@@ -11,14 +11,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regress.runtime.headset.fitness import CameraFitness, judge
-from regress.runtime.headset.levels import levels_in
-from regress.runtime.headset.misfits import Misfit
-from regress.runtime.headset.mouth_points import MouthPoints
-from regress.runtime.headset.placement import CameraPlacement, whole_view
-from regress.runtime.headset.placement_file import read_placement
-from regress.runtime.headset.placement_steps import placement_of_points
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.fitness.fitness import CameraFitness, judge
+from regress.runtime.headset.fitness.misfits import Misfit
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.pictures.placement import CameraPlacement, whole_view
+from regress.runtime.headset.placing.levels import levels_in
+from regress.runtime.headset.placing.mouth_points import MouthPoints
+from regress.runtime.headset.placing.placement_file import read_placement
+from regress.runtime.headset.placing.placement_steps import placement_of_points
 from tests.regress.headset.takes import write_take
 
 pytestmark = pytest.mark.slow

@@ -22,7 +22,7 @@ from regress.learning.headset.training.networks import network_of  # noqa: E402
 from regress.learning.headset.training.resampling import reduced, resampling_matrix, warp_matrix  # noqa: E402
 from regress.learning.headset.training.targets import target_scale  # noqa: E402
 from regress.runtime.headset import CameraInput, HeadsetGraph  # noqa: E402
-from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN, OUTPUTS  # noqa: E402
+from regress.runtime.headset.network.outputs import MIRROR, MIRROR_SIGN, OUTPUTS  # noqa: E402
 
 CAMERAS = (
     CameraInput(name="left_eye", width=40, height=40),

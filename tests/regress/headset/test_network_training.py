@@ -24,11 +24,11 @@ from regress.learning.headset.training import train_headset  # noqa: E402
 from regress.learning.headset.training.batches import TrainingFrames  # noqa: E402
 from regress.learning.headset.training.loop import Training, answer_to, start_training  # noqa: E402
 from regress.runtime.headset import HeadsetGraph, read_headset_model  # noqa: E402
-from regress.runtime.headset.estimates import Estimates  # noqa: E402
-from regress.runtime.headset.model import HeadsetModel  # noqa: E402
-from regress.runtime.headset.parts import part_of  # noqa: E402
-from regress.runtime.headset.placement import CameraPlacement  # noqa: E402
-from regress.runtime.headset.placement_file import Placement, write_placement  # noqa: E402
+from regress.runtime.headset.network.estimates import Estimates  # noqa: E402
+from regress.runtime.headset.network.model import HeadsetModel  # noqa: E402
+from regress.runtime.headset.network.parts import part_of  # noqa: E402
+from regress.runtime.headset.pictures.placement import CameraPlacement  # noqa: E402
+from regress.runtime.headset.placing.placement_file import Placement, write_placement  # noqa: E402
 from tests.regress.headset.takes import write_pictures  # noqa: E402
 
 LITTLE = {"randomise": 0.0, "shift": 0.03, "scale": 0.04, "rotation_deg": 3.0, "plain": 0.0}

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regress.runtime.headset.footage import Footage, line_up
-from regress.runtime.headset.orientation import told_orientation
-from regress.runtime.headset.typical import typical_picture
+from regress.runtime.headset.pictures.typical import typical_picture
+from regress.runtime.headset.placing.orientation import told_orientation
+from regress.runtime.headset.recordings.footage import Footage, line_up
 from tests.regress.headset.takes import recording
 
 SIDE = 32

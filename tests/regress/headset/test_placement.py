@@ -12,14 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regress.errors import InputError
-from regress.runtime.headset.faults import Fault
-from regress.runtime.headset.footage import line_up
-from regress.runtime.headset.model import CameraInput, HeadsetModel, HeadsetTraining
-from regress.runtime.headset.pictures import fit_picture
-from regress.runtime.headset.placement import CameraPlacement
-from regress.runtime.headset.placement_file import Placement, read_placement, write_placement
-from regress.runtime.headset.points import traced_points
-from regress.runtime.headset.recordings import read_recording
+from regress.runtime.headset.answers.points import traced_points
+from regress.runtime.headset.network.model import CameraInput, HeadsetModel, HeadsetTraining
+from regress.runtime.headset.pictures.faults import Fault
+from regress.runtime.headset.pictures.picture_file import fit_picture
+from regress.runtime.headset.pictures.placement import CameraPlacement
+from regress.runtime.headset.placing.placement_file import Placement, read_placement, write_placement
+from regress.runtime.headset.recordings.footage import line_up
+from regress.runtime.headset.recordings.recording import read_recording
 from tests.regress.headset.takes import write_pictures
 from tests.regress.headset.tiny import NAMES
 

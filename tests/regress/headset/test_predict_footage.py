@@ -10,7 +10,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from regress.errors import InputError
-from regress.runtime.headset.faults import (
+from regress.runtime.headset.pictures.faults import (
     FROZEN_S,
     Fault,
     FrozenWatch,
@@ -18,10 +18,10 @@ from regress.runtime.headset.faults import (
     is_black,
     picture_fault,
 )
-from regress.runtime.headset.footage import Footage, line_up
-from regress.runtime.headset.recorded_paths import recorded_size
-from regress.runtime.headset.recordings import Recording, read_recording, read_rendered
-from regress.runtime.headset.soundness import PictureSoundness
+from regress.runtime.headset.recordings.footage import Footage, line_up
+from regress.runtime.headset.recordings.recorded_paths import recorded_size
+from regress.runtime.headset.recordings.recording import Recording, read_recording, read_rendered
+from regress.runtime.headset.recordings.soundness import PictureSoundness
 from regress.runtime.sample import Sample
 from tests.lying_film import lying_film
 from tests.regress.headset.takes import HEIGHT, WIDTH, pictures, recording, write_pictures

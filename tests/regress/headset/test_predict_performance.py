@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, MIRRORED_BLENDSHAPES
 from regress.errors import InputError
-from regress.runtime.headset.confidence import HeadsetConfidence
-from regress.runtime.headset.figures import ShapeFigures
-from regress.runtime.headset.footage import Footage, line_up
-from regress.runtime.headset.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
-from regress.runtime.headset.predict import predict_footage
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.runtime.headset.seats import SeatWatch
+from regress.runtime.headset.answers.confidence import HeadsetConfidence
+from regress.runtime.headset.answers.predict import predict_footage
+from regress.runtime.headset.network.figures import ShapeFigures
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.person.neutral import Neutral, calmest_frame, neutral_of_frame, read_neutral
+from regress.runtime.headset.person.seats import SeatWatch
+from regress.runtime.headset.recordings.footage import Footage, line_up
 from regress.runtime.prediction import Prediction
 from regress.runtime.stages.kalman import LIDS
 from regress.runtime.stages.one_euro import OneEuro

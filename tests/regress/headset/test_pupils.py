@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from regress.runtime.headset.pupils import pupil_share
+from regress.runtime.headset.eyes.pupils import pupil_share
 from tests.regress.headset.test_traced_eyes import EYE, IRIS, LIDS
 
 SIDE, FINE = 96, 8

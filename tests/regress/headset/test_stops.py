@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from regress.runtime.headset.predictor import load_headset_predictor
+from regress.runtime.headset.network.predictor import load_headset_predictor
 from tests.regress.headset.drawn import write_drawn_arrays
 
 pytest.importorskip("torch")

@@ -17,11 +17,11 @@ from facegen.conventions import BLENDSHAPE_INDEX, MIRRORED_BLENDSHAPES
 from regress.errors import InputError
 from regress.learning.headset.arrays import HeadsetArrays
 from regress.learning.headset.taps import fit_taps, fit_temporal
-from regress.runtime.headset.estimates import Estimates
-from regress.runtime.headset.figures import ClipSummary
-from regress.runtime.headset.folder import describe_headset_model, read_headset_model
-from regress.runtime.headset.model import Temporal
-from regress.runtime.headset.temporal import TAPS, convolve
+from regress.runtime.headset.network.estimates import Estimates
+from regress.runtime.headset.network.figures import ClipSummary
+from regress.runtime.headset.network.folder import describe_headset_model, read_headset_model
+from regress.runtime.headset.network.model import Temporal
+from regress.runtime.headset.network.temporal import TAPS, convolve
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.takes import pictures, write_take
 from tests.regress.headset.tiny import NAMES, write_tiny_model

@@ -19,7 +19,7 @@ from regress.learning.headset.training.modular import ModularNetwork  # noqa: E4
 from regress.learning.headset.training.networks import Answer  # noqa: E402
 from regress.learning.headset.training.traced import traced_points  # noqa: E402
 from regress.learning.headset.training.tracers import Tracer  # noqa: E402
-from regress.runtime.headset.outputs import OUTPUTS  # noqa: E402
+from regress.runtime.headset.network.outputs import OUTPUTS  # noqa: E402
 from tests.regress.headset.drawn import DOTS, dot_of  # noqa: E402
 
 IRIS = [f"left_iris_{place}" for place in range(IRIS_POINTS)]

@@ -10,13 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regress.cli.headset_input import read_footage
-from regress.runtime.headset.eye_points import EyePoints
-from regress.runtime.headset.eye_reader import HALF_SHUT, EyeReader
-from regress.runtime.headset.gaze_map import IRIS_MM
-from regress.runtime.headset.own_gaze import corrected, fused, own_gaze
-from regress.runtime.headset.person import OwnEye, Person
-from regress.runtime.headset.predictor import HeadsetPredictor, load_headset_predictor
-from regress.runtime.headset.traced_eyes import eye_features, traced_eyes
+from regress.runtime.headset.answers.eye_reader import HALF_SHUT, EyeReader
+from regress.runtime.headset.answers.traced_eyes import eye_features, traced_eyes
+from regress.runtime.headset.eyes.eye_points import EyePoints
+from regress.runtime.headset.eyes.gaze_map import IRIS_MM
+from regress.runtime.headset.eyes.own_gaze import corrected, fused, own_gaze
+from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
+from regress.runtime.headset.person.person import OwnEye, Person
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
 LIDS, IRIS = 12, 8

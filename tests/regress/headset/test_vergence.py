@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regress.runtime.headset.vergence import READING_DEG, WIDEST_VERGENCE_DEG, meeting
+from regress.runtime.headset.eyes.vergence import READING_DEG, WIDEST_VERGENCE_DEG, meeting
 
 angles = st.floats(-60, 60)
 errors = st.floats(0.1, 30)

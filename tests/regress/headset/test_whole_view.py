@@ -8,13 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from regress.errors import InputError
-from regress.runtime.headset.faults import FROZEN_S, Fault
-from regress.runtime.headset.footage import line_up
-from regress.runtime.headset.neutral import read_neutral
-from regress.runtime.headset.pictures import STRANGE_ASPECT, fit_picture, whole_of_shape
-from regress.runtime.headset.placement import whole_view
-from regress.runtime.headset.recordings import read_recording
-from regress.runtime.headset.soundness import PictureSoundness
+from regress.runtime.headset.person.neutral import read_neutral
+from regress.runtime.headset.pictures.faults import FROZEN_S, Fault
+from regress.runtime.headset.pictures.picture_file import STRANGE_ASPECT, fit_picture, whole_of_shape
+from regress.runtime.headset.pictures.placement import whole_view
+from regress.runtime.headset.recordings.footage import line_up
+from regress.runtime.headset.recordings.recording import read_recording
+from regress.runtime.headset.recordings.soundness import PictureSoundness
 from regress.runtime.sample import Sample
 from tests.regress.headset.takes import write_pictures
 

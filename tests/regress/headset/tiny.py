@@ -8,11 +8,11 @@ import onnx
 from onnx import TensorProto, helper, numpy_helper
 
 from facegen.conventions import BLENDSHAPES
-from regress.runtime.headset.estimates import GRAPH_OUTPUTS
-from regress.runtime.headset.figures import DeviationFigures, Evaluation, ShapeFigures
-from regress.runtime.headset.folder import save_headset_model
-from regress.runtime.headset.model import CameraInput, HeadsetModel, HeadsetTraining
-from regress.runtime.headset.parts import part_of
+from regress.runtime.headset.network.estimates import GRAPH_OUTPUTS
+from regress.runtime.headset.network.figures import DeviationFigures, Evaluation, ShapeFigures
+from regress.runtime.headset.network.folder import save_headset_model
+from regress.runtime.headset.network.model import CameraInput, HeadsetModel, HeadsetTraining
+from regress.runtime.headset.network.parts import part_of
 
 NAMES = ("left_eye", "right_eye", "mouth")
 OWNER = {shape: next(name for name in NAMES if shape in part_of(name)) for shape in BLENDSHAPES}

@@ -2,7 +2,7 @@
 
 from regress.learning.headset.comparison import Rivalry
 from regress.report.headset_tables import WORDS, conditions_table, rivals_table
-from regress.runtime.headset.figures import Summary
+from regress.runtime.headset.network.figures import Summary
 
 ROW = Rivalry(rows=4, geometry_mm=1.0, rival_mm=2.0, better=0.5, people=0.5)
 FIGURES = Summary(

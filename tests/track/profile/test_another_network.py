@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from regress.runtime.headset.person import OwnEye
-from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.person.person import OwnEye
+from regress.runtime.headset.pictures.placement import CameraPlacement
 from regress.runtime.sample import Sample
 from track.cli.opening import Wishes
 from track.cli.opening_profile import open_profile

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLINK_INDICES
-from regress.runtime.headset.person import HIGHEST_REST, LEAST_SPAN, OwnEnds, OwnEye
+from regress.runtime.headset.person.person import HIGHEST_REST, LEAST_SPAN, OwnEnds, OwnEye
 from regress.runtime.stages.own_blinks import Ends
 from track.cli import app
 from track.errors import InputError

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPES
-from regress.runtime.headset.faults import RESHAPE
+from regress.runtime.headset.pictures.faults import RESHAPE
 from regress.runtime.sample import Sample
 from tests.track.session.faces import SAMPLES, Kept, calibrated_profile, frames, new_session
 from track.detectors import FaceFault

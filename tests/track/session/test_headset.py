@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPES
-from regress.runtime.headset.person import OwnEye
+from regress.runtime.headset.person.person import OwnEye
 from regress.runtime.sample import EyeMeasures, Sample
 from regress.runtime.writers.csv_table import EYE_COLUMNS
 from tests.track.session.test_chaos import FPS, HEADSET, headset_frames, headset_session

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES
-from regress.runtime.headset.parts import part_of
+from regress.runtime.headset.network.parts import part_of
 from regress.runtime.sample import Sample
 from tests.track.session.test_calibration import act, obedient
 from tests.track.session.test_chaos import FPS, HEADSET, headset_frames

@@ -10,7 +10,7 @@ import torch
 from torch import nn
 
 from regress.errors import ModelError
-from regress.runtime.headset.compass import COMPASS_SIDE, ORIENTATIONS
+from regress.runtime.headset.placing.compass import COMPASS_SIDE, ORIENTATIONS
 from regress.runtime.onnx_session import open_session
 
 _CHANNELS = (24, 48, 64, 96)

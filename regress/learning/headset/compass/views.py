@@ -5,9 +5,9 @@ import numpy as np
 
 from regress.errors import InputError
 from regress.learning.headset.arrays import HeadsetArrays
-from regress.runtime.headset.compass import COMPASS_SIDE, QUARTERS
-from regress.runtime.headset.parts import is_of_one_eye, side_of
-from regress.runtime.headset.placement import CameraPlacement
+from regress.runtime.headset.network.parts import is_of_one_eye, side_of
+from regress.runtime.headset.pictures.placement import CameraPlacement
+from regress.runtime.headset.placing.compass import COMPASS_SIDE, QUARTERS
 
 _SIZE, _SHIFT, _ROLL_DEG, _STRETCH = 0.25, 0.08, 14.0, 0.12
 """Standard deviations of a view: of the logarithm of its size, of its place (of the width), in degrees, and of the

@@ -12,8 +12,8 @@ from regress.learning.headset.recipe import PLAIN_DISPLACEMENT, HeadsetRecipe
 from regress.learning.headset.training.resampling import reduced, warp_matrix
 from regress.learning.headset.training.targets import outputs_of
 from regress.learning.headset.training.traced import mirrored_points, positions_of, traced_points
-from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN
-from regress.runtime.headset.parts import encoder_owners, is_symmetric, mirror_partner
+from regress.runtime.headset.network.outputs import MIRROR, MIRROR_SIGN
+from regress.runtime.headset.network.parts import encoder_owners, is_symmetric, mirror_partner
 
 _SHUT = 0.5
 """Weight of eyeBlink from which an eye counts as shut: 5 % of the frames of datasets/headset.toml."""

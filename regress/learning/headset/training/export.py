@@ -15,9 +15,9 @@ from regress.errors import ModelError
 from regress.learning.headset.training.networks import HeadsetNetwork
 from regress.learning.headset.training.resampling import resampling_matrix
 from regress.learning.headset.training.targets import Targets
-from regress.runtime.headset.estimates import CAMERA_INPUT, GRAPH_OUTPUTS, TERMS_TOLD, points_output
-from regress.runtime.headset.model import CameraInput
-from regress.runtime.headset.outputs import WEIGHTS
+from regress.runtime.headset.network.estimates import CAMERA_INPUT, GRAPH_OUTPUTS, TERMS_TOLD, points_output
+from regress.runtime.headset.network.model import CameraInput
+from regress.runtime.headset.network.outputs import WEIGHTS
 from regress.runtime.onnx_session import open_session
 
 TOLERANCE = 1e-4

@@ -8,7 +8,7 @@ from torch import nn
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.blend import Blended
 from regress.learning.headset.training.networks import Answer, Head, HeadsetNetwork
-from regress.runtime.headset.outputs import OUTPUTS
+from regress.runtime.headset.network.outputs import OUTPUTS
 
 
 class HolisticNetwork(HeadsetNetwork):

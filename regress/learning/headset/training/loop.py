@@ -25,8 +25,8 @@ from regress.learning.headset.training.start import LearnedGraph
 from regress.learning.headset.training.targets import Targets, target_scale
 from regress.learning.headset.training.traced import mirrored_points
 from regress.learning.progress import Progress
-from regress.runtime.headset.folder import read_headset_model
-from regress.runtime.headset.outputs import WEIGHTS
+from regress.runtime.headset.network.folder import read_headset_model
+from regress.runtime.headset.network.outputs import WEIGHTS
 
 _STATE_VERSION = 3
 """Raised when a checkpoint of before no longer fits the networks."""

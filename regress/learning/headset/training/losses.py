@@ -7,7 +7,7 @@ from torch.nn import functional
 
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.networks import Answer, HeadsetNetwork
-from regress.runtime.headset.outputs import WEIGHTS
+from regress.runtime.headset.network.outputs import WEIGHTS
 
 _SEAT = 0.1
 """Weight of the seat's cross-entropy."""

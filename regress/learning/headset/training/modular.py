@@ -10,7 +10,7 @@ from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.blend import LEAST_MODULATION, blend
 from regress.learning.headset.training.networks import Answer, Head, HeadsetNetwork
 from regress.learning.headset.training.targets import part_mask
-from regress.runtime.headset.parts import mirror_partner
+from regress.runtime.headset.network.parts import mirror_partner
 
 _MIRRORED = " mirrored"
 """Behind a camera's name: what it tells cameras that are seen mirrored."""

@@ -11,8 +11,8 @@ from regress.learning.headset.architectures import ARCHITECTURES
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.blend import Blended
 from regress.learning.headset.training.encoders import Encoder
-from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN, OUTPUTS
-from regress.runtime.headset.parts import encoder_owners
+from regress.runtime.headset.network.outputs import MIRROR, MIRROR_SIGN, OUTPUTS
+from regress.runtime.headset.network.parts import encoder_owners
 
 _LOG_VARIANCE = (-6.0, 3.0)
 """Of z-scores: a standard deviation of .05 to 4.5 times the training one."""

@@ -18,13 +18,13 @@ from regress.learning.headset.recipe import HeadsetRecipe, recipe_of
 from regress.learning.headset.training.export import export_graph
 from regress.learning.headset.training.loop import start_training
 from regress.learning.progress import Progress
-from regress.runtime.headset.estimates import GRAPH_OUTPUTS, points_output
-from regress.runtime.headset.folder import read_headset_model, save_headset_model
-from regress.runtime.headset.graph import HeadsetGraph
-from regress.runtime.headset.model import HeadsetModel, HeadsetTraining
-from regress.runtime.headset.outputs import WEIGHTS
-from regress.runtime.headset.parts import encoder_owners, part_of
-from regress.runtime.headset.typical import typical_picture
+from regress.runtime.headset.network.estimates import GRAPH_OUTPUTS, points_output
+from regress.runtime.headset.network.folder import read_headset_model, save_headset_model
+from regress.runtime.headset.network.graph import HeadsetGraph
+from regress.runtime.headset.network.model import HeadsetModel, HeadsetTraining
+from regress.runtime.headset.network.outputs import WEIGHTS
+from regress.runtime.headset.network.parts import encoder_owners, part_of
+from regress.runtime.headset.pictures.typical import typical_picture
 from regress.runtime.model import HEADSET, check_place
 
 

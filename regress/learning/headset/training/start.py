@@ -18,8 +18,8 @@ from regress.learning.headset.training.batches import Batch
 from regress.learning.headset.training.networks import Answer, HeadsetNetwork
 from regress.learning.headset.training.residuals import residual_names
 from regress.learning.headset.training.targets import Targets
-from regress.runtime.headset.estimates import TERMS_TOLD
-from regress.runtime.headset.folder import MOST_GRAPH_BYTES, read_headset_model
+from regress.runtime.headset.network.estimates import TERMS_TOLD
+from regress.runtime.headset.network.folder import MOST_GRAPH_BYTES, read_headset_model
 
 Answering = Callable[[HeadsetNetwork, Batch], Answer]
 """Runs a network on a batch."""

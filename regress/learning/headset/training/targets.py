@@ -6,8 +6,8 @@ import numpy as np
 
 from facegen.conventions import BLENDSHAPES
 from regress.learning.headset.arrays import HeadsetArrays
-from regress.runtime.headset.outputs import MIRROR, MIRROR_SIGN
-from regress.runtime.headset.parts import part_of
+from regress.runtime.headset.network.outputs import MIRROR, MIRROR_SIGN
+from regress.runtime.headset.network.parts import part_of
 
 _LEAST_STD = 0.02
 """A shape that hardly moves in the data would count as much as all others otherwise."""

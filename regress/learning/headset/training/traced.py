@@ -4,7 +4,7 @@ import numpy as np
 
 from facegen.conventions import MIRRORED_VIEW_POINTS
 from regress.learning.headset.arrays import HeadsetArrays
-from regress.runtime.headset.parts import encoder_owners
+from regress.runtime.headset.network.parts import encoder_owners
 
 SEEN = 1 / 3
 """Share of training frames whose picture must show a point for its camera to trace it: inner lips show in a third."""
