@@ -1,23 +1,23 @@
 /** A meeting: ties the line, the people, their voices and the picture together. */
 
 import { byId } from "../elements.js";
-import { Brought } from "./brought.js";
-import { Controls } from "./controls.js";
-import { sentence } from "./join.js";
-import { Line } from "./line.js";
-import { newsOf } from "./news.js";
-import type { Microphone } from "./microphone.js";
-import { People, type Known } from "./people.js";
-import { Place } from "./place.js";
-import { Presence } from "./presence.js";
-import { FLAG, type Message } from "./protocol.js";
-import { Replaying } from "./replaying.js";
-import { Screen } from "./screen.js";
-import { Sidebar } from "./sidebar.js";
+import { sentence } from "./door/join.js";
+import { Line } from "./line/line.js";
+import { FLAG, type Message } from "./line/protocol.js";
+import type { Answer, Welcome } from "./line/texts.js";
+import { Controls } from "./page/controls.js";
+import { newsOf } from "./page/news.js";
+import { Replaying } from "./page/replaying.js";
+import { Sidebar } from "./page/sidebar.js";
+import { Status } from "./page/status.js";
+import { Brought } from "./people/brought.js";
+import { People, type Known } from "./people/people.js";
+import { Presence } from "./presence/presence.js";
+import { Place } from "./scene/place.js";
+import { Screen } from "./sharing/screen.js";
 import { Stage } from "./stage.js";
-import { Status } from "./status.js";
-import type { Answer, Welcome } from "./texts.js";
-import { Voice } from "./voice.js";
+import type { Microphone } from "./voice/microphone.js";
+import { Voice } from "./voice/voice.js";
 
 const HERTZ = 30;
 

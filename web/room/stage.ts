@@ -1,11 +1,11 @@
 /** What is seen: the room, the people in it and where they point, drawn as often as the browser asks for a picture. */
 
-import type { People } from "./people.js";
-import type { Place } from "./place.js";
-import { Pointers } from "./pointers.js";
-import type { Presence } from "./presence.js";
-import { FLAG } from "./protocol.js";
-import { View } from "./view.js";
+import { FLAG } from "./line/protocol.js";
+import type { People } from "./people/people.js";
+import type { Presence } from "./presence/presence.js";
+import type { Place } from "./scene/place.js";
+import { Pointers } from "./scene/pointers.js";
+import { View } from "./scene/view.js";
 
 export class Stage {
   readonly view: View;

@@ -5,11 +5,11 @@ import { test } from "node:test";
 import { Bone, Mesh, Scene, Skeleton, SkinnedMesh, Sprite, type BufferGeometry, type Material } from "three";
 
 import { Avatar } from "../../avatar/avatar.js";
-import { PLAIN } from "../avatars.js";
-import type { Brought } from "../brought.js";
-import { Figure } from "../figure.js";
-import { People } from "../people.js";
-import type { Person } from "../texts.js";
+import { Figure } from "../figure/figure.js";
+import type { Person } from "../line/texts.js";
+import { PLAIN } from "../people/avatars.js";
+import type { Brought } from "../people/brought.js";
+import { People } from "../people/people.js";
 
 const ADA = { number: 7, name: "Ada", avatar: PLAIN, own: "", id: "0".repeat(16), present: true } as unknown as Person;
 

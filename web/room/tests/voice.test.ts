@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import type { Person } from "../texts.js";
+import type { Person } from "../line/texts.js";
 
 /** Takes every call and every property of what a browser has and Node has not. */
 class Anything {
@@ -41,7 +41,7 @@ class Gain extends Anything {
 Object.assign(globalThis, { GainNode: Gain });
 
 Object.assign(globalThis, { addEventListener: () => undefined });
-const { Voice } = await import("../voice.js");
+const { Voice } = await import("../voice/voice.js");
 
 const person = (muted: boolean): Person => ({
   number: 1,

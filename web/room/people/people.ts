@@ -1,0 +1,121 @@
+/** Everybody in the room as this page knows them: who they are, how they look, and where they were last. */
+
+import type { Scene, Object3D } from "three";
+
+import { coloursOf, dye } from "../figure/colours.js";
+import { Figure } from "../figure/figure.js";
+import type { Message } from "../line/protocol.js";
+import type { Person } from "../line/texts.js";
+import { Wardrobe, type Dressed } from "./avatars.js";
+import type { Brought } from "./brought.js";
+import { Playback } from "./playback.js";
+
+/** Somebody else, or oneself. */
+export interface Known {
+  person: Person;
+  readonly playback: Playback;
+  figure: Figure | undefined;
+  wears: string;
+  /** Frees what an avatar of their own holds. */
+  free: () => void;
+  newest: Message | undefined;
+}
+
+export class People {
+  readonly known = new Map<number, Known>();
+  /** The number of who looks at this page; nobody before the welcome. */
+  own = -1;
+  private readonly wardrobe = new Wardrobe();
+
+  constructor(
+    private readonly view: { readonly scene: Scene; hide(own: Object3D): void },
+    private readonly brought: Brought,
+  ) {}
+
+  /** Forget everybody. */
+  clear(): void {
+    for (const known of this.known.values()) undress(known);
+    this.known.clear();
+  }
+
+  /** Somebody came, or is another than they were. */
+  meet(person: Person): void {
+    const known = this.known.get(person.number) ?? {
+      person,
+      playback: new Playback(),
+      figure: undefined,
+      wears: "",
+      free: () => undefined,
+      newest: undefined,
+    };
+    if (known.person.face !== person.face) known.playback.restart(); // their clocks differ
+    known.person = person;
+    this.known.set(person.number, known);
+    if (person.number === this.own) this.brought.wears(person.own);
+    const wears = `${person.avatar} ${person.own}`;
+    if (known.wears === wears) return;
+    known.wears = wears;
+    void this.clothe(known, person, wears);
+  }
+
+  /** Somebody left; says who it was. */
+  part(number: number): Person | undefined {
+    const known = this.known.get(number);
+    if (known) undress(known);
+    this.known.delete(number);
+    return known?.person;
+  }
+
+  /** Who looks at this page; nobody before the welcome, and after the meeting. */
+  get self(): Person | undefined {
+    return this.known.get(this.own)?.person;
+  }
+
+  get all(): Person[] {
+    return [...this.known.values()].map(({ person }) => person);
+  }
+
+  /** All but oneself. */
+  get others(): Known[] {
+    return [...this.known.values()].filter(({ person }) => person.number !== this.own);
+  }
+
+  /** Where the others stand. */
+  taken(): [number, number][] {
+    return this.others.flatMap(({ newest }): [number, number][] => (newest ? [[newest.floor_m[0]!, newest.floor_m[1]!]] : []));
+  }
+
+  /** The plain head until the room's avatar is there, and that one until the person's own is. */
+  private async clothe(known: Known, person: Person, wears: string): Promise<void> {
+    const still = (): boolean => this.known.get(person.number) === known && known.wears === wears;
+    const own = person.own ? this.brought.fetch(person.own) : undefined;
+    if (!known.figure || !person.own) {
+      const plain = this.wardrobe.plain();
+      this.dress(known, plain, () => plain.avatar.dispose());
+    }
+    const ready = await this.wardrobe.another(person.avatar);
+    if (ready && still()) this.dress(known, ready, dye(ready.avatar.root, coloursOf(person)));
+    const brought = await own;
+    if (!brought) return;
+    if (still()) this.dress(known, brought, () => brought.avatar.dispose());
+    else brought.avatar.dispose();
+  }
+
+  private dress(known: Known, { avatar, height }: Dressed, free = (): void => undefined): void {
+    undress(known);
+    known.free = free;
+    known.figure = new Figure(avatar, known.person.number, height);
+    known.figure.root.visible = false; // until it is known where they stand
+    this.view.scene.add(known.figure.root);
+    if (known.person.number === this.own) {
+      known.figure.nameless();
+      this.view.hide(known.figure.root);
+    }
+  }
+}
+
+function undress(known: Known): void {
+  known.figure?.dispose();
+  known.free();
+  known.figure = undefined;
+}
