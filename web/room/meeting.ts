@@ -114,10 +114,9 @@ export class Meeting {
     this.own = welcome;
     this.presence.arrive(performance.now());
     this.voice.configure(welcome.ice, welcome.engine);
-    this.people.clear();
+    this.people.welcome(welcome.people, welcome.number);
     this.stage.pointers.clear();
-    this.people.own = welcome.number;
-    for (const person of welcome.people) this.people.meet(person);
+    for (const { number } of welcome.people) this.speak(number, false); // in mid-word when the line broke, perhaps
     this.brought.again();
     this.locked = welcome.locked;
     this.lineWord = "";

@@ -3,6 +3,7 @@
 import { AvatarError, loadAvatar } from "../../avatar/index.js";
 import { byId } from "../../elements.js";
 import { dressed, type Dressed } from "./avatars.js";
+import { Files } from "./files.js";
 
 /** Metres from the lowest to the highest point: a child of three, and somebody very tall in a hat. */
 const LEAST_HEIGHT = 0.8;
@@ -15,6 +16,8 @@ export const isAvatar = ({ name }: File): boolean => /\.(glb|vrm)$/i.test(name);
 
 /** Answers of a server to which as many come back at once after it began anew: too many of one person's, and of all. */
 const BUSY = [429, 503];
+/** The answer to who is not in the room, as behind a break of the line; and to whom a moderator forbade it. */
+const FORBIDDEN = 403;
 
 /** A sentence about an avatar stays so long. */
 const TOLD_MS = 15_000;
@@ -28,6 +31,9 @@ export class Brought {
   /** Of the file, once the server has taken it. */
   private digest: string | undefined;
   private isIn = false;
+  /** Whether the server forbade the file once: after coming in again it is brought once more. */
+  private forbidden = false;
+  private readonly files: Files;
 
   /** `address` is `/room/NAME/avatar`; `undress` says to the room that one of its own is worn again. */
   constructor(
@@ -36,6 +42,7 @@ export class Brought {
     private readonly secret: string,
     undress: () => void,
   ) {
+    this.files = new Files(address, key);
     const input = byId<HTMLInputElement>("brought");
     this.button.addEventListener("click", () => {
       if (!this.worn) return input.click();
@@ -67,6 +74,7 @@ export class Brought {
       avatar.dispose();
       this.file = { name: file.name, content };
       this.digest = undefined;
+      this.forbidden = false;
       if (this.isIn && (await this.send())) this.tell(lacks || `The others see you as ${file.name}.`);
     } catch (error) {
       if (!(error instanceof AvatarError)) console.warn(`${file.name}:`, error);
@@ -98,11 +106,11 @@ export class Brought {
     this.button.textContent = own ? "Take my avatar off" : "My avatar …";
   }
 
-  /** Somebody's avatar; undefined where they wear it no longer, or it cannot be shown. */
-  async fetch(digest: string): Promise<Dressed | undefined> {
+  /** Somebody's avatar; undefined where they wear it no longer, by `wanted`, or it cannot be shown. */
+  async fetch(digest: string, wanted: () => boolean): Promise<Dressed | undefined> {
+    const content = await this.files.fetch(digest, wanted);
     try {
-      const answer = await fetch(`${this.address}/${digest}`, { headers: { Authorization: `Bearer ${this.key}` } });
-      return answer.ok ? await read(await answer.arrayBuffer(), "avatar") : undefined;
+      return content && (await read(content, "avatar"));
     } catch (error) {
       console.warn("an avatar that somebody brought:", error);
       return undefined;
@@ -121,6 +129,7 @@ export class Brought {
     const answer = await fetch(this.address, { method: "POST", body: content, headers }).catch(() => undefined);
     if (answer?.ok) {
       this.digest = ((await answer.json()) as { own: string }).own;
+      this.forbidden = false;
       return true;
     }
     const why = answer ? (await answer.text()).trim().replace(/\.$/, "") : "the server could not be reached";
@@ -131,7 +140,8 @@ export class Brought {
       setTimeout(() => this.file === file && !this.digest && void this.send(), 1000 * (10 + 30 * Math.random()));
       return false;
     }
-    this.file = undefined;
+    if (answer.status !== FORBIDDEN || this.forbidden) this.file = undefined;
+    this.forbidden = true;
     this.tell(`${name} is not shown to the others: ${why}.`);
     return false;
   }

@@ -6,9 +6,10 @@ import { coloursOf, dye } from "../figure/colours.js";
 import { Figure } from "../figure/figure.js";
 import type { Message } from "../line/protocol.js";
 import type { Person } from "../line/texts.js";
-import { Wardrobe, type Dressed } from "./avatars.js";
+import { PLAIN, Wardrobe, type Dressed } from "./avatars.js";
 import type { Brought } from "./brought.js";
 import { Playback } from "./playback.js";
+import { again } from "./tries.js";
 
 /** Somebody else, or oneself. */
 export interface Known {
@@ -31,6 +32,14 @@ export class People {
     private readonly view: { readonly scene: Scene; hide(own: Object3D): void },
     private readonly brought: Brought,
   ) {}
+
+  /** Come in, or come back: who is there still, in the same clothes, keeps them, as they take time to load. */
+  welcome(people: readonly Person[], own: number): void {
+    this.own = own;
+    const there = new Map(people.map(({ number, id }) => [number, id]));
+    for (const { person } of [...this.known.values()]) if (there.get(person.number) !== person.id) this.part(person.number);
+    for (const person of people) this.meet(person);
+  }
 
   /** Forget everybody. */
   clear(): void {
@@ -88,17 +97,23 @@ export class People {
   /** The plain head until the room's avatar is there, and that one until the person's own is. */
   private async clothe(known: Known, person: Person, wears: string): Promise<void> {
     const still = (): boolean => this.known.get(person.number) === known && known.wears === wears;
-    const own = person.own ? this.brought.fetch(person.own) : undefined;
+    let over = false; // whether what they brought is on: it may be there before the room's
+    const bare = (): boolean => still() && !over;
+    const own = person.own ? this.brought.fetch(person.own, still) : undefined;
     if (!known.figure || !person.own) {
       const plain = this.wardrobe.plain();
       this.dress(known, plain, () => plain.avatar.dispose());
     }
-    const ready = await this.wardrobe.another(person.avatar);
-    if (ready && still()) this.dress(known, ready, dye(ready.avatar.root, coloursOf(person)));
+    if (person.avatar !== PLAIN) {
+      void again(() => this.wardrobe.another(person.avatar), bare).then((ready) => {
+        if (ready && bare()) this.dress(known, ready, dye(ready.avatar.root, coloursOf(person)));
+      });
+    }
     const brought = await own;
     if (!brought) return;
     if (still()) this.dress(known, brought, () => brought.avatar.dispose());
     else brought.avatar.dispose();
+    over = true;
   }
 
   private dress(known: Known, { avatar, height }: Dressed, free = (): void => undefined): void {
