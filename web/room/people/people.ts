@@ -17,6 +17,8 @@ export interface Known {
   readonly playback: Playback;
   figure: Figure | undefined;
   wears: string;
+  /** Whether the figure is in an avatar that they brought, and not in one of the room's. */
+  own: boolean;
   /** Frees what an avatar of their own holds. */
   free: () => void;
   newest: Message | undefined;
@@ -54,6 +56,7 @@ export class People {
       playback: new Playback(),
       figure: undefined,
       wears: "",
+      own: false,
       free: () => undefined,
       newest: undefined,
     };
@@ -65,6 +68,13 @@ export class People {
     if (known.wears === wears) return;
     known.wears = wears;
     void this.clothe(known, person, wears);
+  }
+
+  /** Take off what cannot be drawn, for as long as they wear it: the room's avatar stands in, and for that one the plain head. */
+  refuse(known: Known): void {
+    const { person, own, figure } = known;
+    if (figure?.avatar.name === PLAIN) return;
+    void this.clothe(known, { ...person, own: "", avatar: own ? person.avatar : PLAIN }, known.wears);
   }
 
   /** Somebody left; says who it was. */
@@ -111,20 +121,25 @@ export class People {
     }
     const brought = await own;
     if (!brought) return;
-    if (still()) this.dress(known, brought, () => brought.avatar.dispose());
-    else brought.avatar.dispose();
-    over = true;
+    if (!still()) return brought.avatar.dispose();
+    try {
+      this.dress(known, brought, () => brought.avatar.dispose(), true);
+      over = true;
+    } catch (error) {
+      console.warn("an avatar that somebody brought:", error); // what they wore before stays on
+      brought.avatar.dispose();
+    }
   }
 
-  private dress(known: Known, { avatar, height }: Dressed, free = (): void => undefined): void {
+  private dress(known: Known, { avatar, height }: Dressed, free = (): void => undefined, own = false): void {
+    const figure = new Figure(avatar, known.person.number, height);
     undress(known);
-    known.free = free;
-    known.figure = new Figure(avatar, known.person.number, height);
-    known.figure.root.visible = false; // until it is known where they stand
-    this.view.scene.add(known.figure.root);
+    Object.assign(known, { figure, free, own });
+    figure.root.visible = false; // until it is known where they stand
+    this.view.scene.add(figure.root);
     if (known.person.number === this.own) {
-      known.figure.nameless();
-      this.view.hide(known.figure.root);
+      figure.nameless();
+      this.view.hide(figure.root);
     }
   }
 }

@@ -78,7 +78,19 @@ export class View {
     this.renderer.setAnimationLoop(due);
   }
 
+  /** Throws where something cannot be drawn; the next picture may be drawn nevertheless. */
   draw(): void {
+    const target = this.renderer.getRenderTarget(); // of a headset
+    try {
+      this.paint();
+    } catch (error) {
+      this.renderer.setRenderTarget(target); // it was a shadow's, perhaps
+      this.frame(this.canvas.width, this.canvas.height, false);
+      throw error;
+    }
+  }
+
+  private paint(): void {
     if (this.renderer.xr.isPresenting) {
       this.renderer.render(this.scene, this.camera);
       return;
@@ -100,14 +112,18 @@ export class View {
     const { width, height } = this.glass;
     const share = Math.min(1, this.canvas.width / width, this.canvas.height / height); // of a window smaller than the glass
     const [across, up] = [Math.floor(width * share), Math.floor(height * share)];
-    this.renderer.setViewport(0, 0, across, up);
-    this.renderer.setScissor(0, 0, across, up);
-    this.renderer.setScissorTest(true);
+    this.frame(across, up, true);
     this.renderer.render(this.scene, this.mirror);
     this.small.setTransform(-1, 0, 0, 1, width, 0);
     this.small.drawImage(this.canvas, 0, this.canvas.height - up, across, up, 0, 0, width, height);
-    this.renderer.setScissorTest(false);
-    this.renderer.setViewport(0, 0, this.canvas.width, this.canvas.height);
+    this.frame(this.canvas.width, this.canvas.height, false);
+  }
+
+  /** Draw into the lower left corner of this size; `alone` leaves what is around it as it is. */
+  private frame(width: number, height: number, alone: boolean): void {
+    this.renderer.setViewport(0, 0, width, height);
+    this.renderer.setScissor(0, 0, width, height);
+    this.renderer.setScissorTest(alone);
   }
 }
 

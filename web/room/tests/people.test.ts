@@ -110,3 +110,37 @@ test("what somebody brought may be there before the room's, and stays on", async
     Wardrobe.prototype.another = another;
   }
 });
+
+test("of an avatar that cannot be drawn the room's stands in, of that one the plain head, and of that one nothing", async () => {
+  const another = Wardrobe.prototype.another;
+  Wardrobe.prototype.another = async (name) => ({ avatar: new Avatar(name, new Mesh()), height: 1.7 });
+  try {
+    let fetched = 0;
+    const people = crowd(async () => (fetched++, { avatar: new Avatar("brought", new Mesh()), height: 1.7 }));
+    const ada = { ...ADA, avatar: "nora", own: "0a" };
+    people.meet(ada);
+    const known = people.known.get(ADA.number)!;
+    for (const wears of ["brought", "nora", PLAIN, PLAIN]) {
+      await passed(0);
+      assert.equal(known.figure!.avatar.name, wears);
+      people.welcome([ada], 1); // brings nothing back that was refused
+      people.refuse(known);
+    }
+    assert.equal(fetched, 1);
+    people.meet({ ...ada, own: "0b" });
+    await passed(0);
+    assert.equal(known.figure!.avatar.name, "brought");
+  } finally {
+    Wardrobe.prototype.another = another;
+  }
+});
+
+test("who brings what no figure can be made of keeps what they wore", async () => {
+  mock.method(console, "warn", () => undefined);
+  const brought = new Avatar("brought", new Mesh());
+  Object.defineProperty(brought, "headJoint_m", { get: () => assert.fail("broken") });
+  const people = crowd(async () => ({ avatar: brought, height: 1.7 }));
+  people.meet({ ...ADA, own: "0a" });
+  await passed(0);
+  assert.equal(people.known.get(ADA.number)!.figure!.avatar.name, PLAIN);
+});
