@@ -198,6 +198,7 @@ export class Meeting {
     this.controls.seat(this.presence.stance.seated);
     this.line.move(this.presence.move(now));
     this.presence.listen(this.voice, this.people.others, now);
+    if (this.voice.watch(now)) this.show();
   }
 
   private show(): void {

@@ -23,7 +23,7 @@ export class Row {
 
   constructor(
     readonly id: string,
-    voice: Voice,
+    private readonly voice: Voice,
     moderate: (action: Act) => void,
   ) {
     this.dot.className = "dot";
@@ -53,6 +53,7 @@ export class Row {
       person.moderator ? "moderator" : "",
       person.present ? "" : "away",
       person.replayed ? "replay" : person.muted ? "muted by a moderator" : person.voice ? "" : "microphone off",
+      this.voice.lacks(person.id) ? "voice does not arrive" : "",
       person.face === "program" ? "face by a program" : "",
       person.recorded ? "recorded" : "",
       person.shares ? "shares the screen" : "",

@@ -4,6 +4,7 @@
  */
 
 import type { Answer, Candidate, Description, Person } from "../line/texts.js";
+import { Arrivals } from "./arrivals.js";
 import { Engine } from "./engine.js";
 import type { Lines, Send } from "./lines.js";
 import { Loopback } from "./loopback.js";
@@ -23,6 +24,9 @@ export class Voice {
   private readonly muted = new Set<string>();
   private track: MediaStreamTrack | null = null;
   private readonly waker = new Waker(this.context);
+  private readonly arrivals = new Arrivals();
+  private others: Person[] = [];
+  private ice: RTCIceServer[] = [];
   private engineWord = "";
 
   /** `echoes` where a microphone hears the loudspeakers: then the browser's echo cancellation has to see what is played. */
@@ -36,11 +40,12 @@ export class Voice {
 
   /** What the person should know of voices; empty while all is well. */
   get word(): string {
-    return this.engineWord || this.waker.word;
+    return this.engineWord || this.waker.word || this.arrivals.word(this.lines instanceof Engine, this.ice);
   }
 
   /** What the room says on coming in, again after each break; lines that are there go on. */
   configure(ice: RTCIceServer[], engine: boolean): void {
+    this.ice = ice;
     if (engine && !(this.lines instanceof Engine)) this.use(new Engine(this.send, this));
     if (!engine && !(this.lines instanceof Mesh)) this.use(new Mesh(this.send, this));
     this.lines?.configure(ice);
@@ -55,6 +60,7 @@ export class Voice {
   meet(people: Iterable<Person>, own: string): void {
     const listed = new Map([...people].map((person) => [person.id, person]));
     this.lines?.meet(listed, own);
+    this.others = [...listed.values()].filter(({ id }) => id !== own);
     for (const person of listed.values()) this.setMuted(person.id, person.muted);
   }
 
@@ -139,6 +145,16 @@ export class Voice {
   /** Whether somebody's voice could be heard now. */
   state(id: string): RTCPeerConnectionState {
     return this.lines?.state(id) ?? "new";
+  }
+
+  /** Look whose voice arrives; says whether it is others than before. */
+  watch(now: number): boolean {
+    return this.arrivals.look(this.others, (id) => this.state(id), now);
+  }
+
+  /** Whether somebody speaks whom one cannot hear. */
+  lacks(id: string): boolean {
+    return this.arrivals.lacks(id);
   }
 
   /** Sound of one person before it is placed, for tests: the greatest sample of the last moment. */
