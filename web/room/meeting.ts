@@ -7,6 +7,7 @@ import { FLAG, type Message } from "./line/protocol.js";
 import type { Answer, Welcome } from "./line/texts.js";
 import { Controls } from "./page/controls.js";
 import { newsOf } from "./page/news.js";
+import { Raised } from "./page/raised.js";
 import { Replaying } from "./page/replaying.js";
 import { Sidebar } from "./page/sidebar.js";
 import { Status } from "./page/status.js";
@@ -32,6 +33,7 @@ export class Meeting {
   private readonly controls: Controls;
   private readonly replaying = new Replaying((said) => this.line.say(said));
   private readonly sidebar: Sidebar;
+  private readonly raised = new Raised();
   private readonly line: Line;
   private readonly status = new Status(byId("state"), () => [
     this.lineWord,
@@ -141,6 +143,7 @@ export class Meeting {
       case "left":
         this.voice.part(this.people.part(answer.number)?.id ?? "");
         this.stage.pointers.drop(answer.number);
+        this.raised.drop(answer.number);
         break;
       case "line":
         this.sidebar.line(answer.name, answer.text, answer.time_s);
@@ -181,6 +184,9 @@ export class Meeting {
     known.newest = message;
     known.playback.push(message, performance.now());
     if (number === this.own?.number) this.presence.resume(message);
+    const raised = this.raised.see(number, message, performance.now());
+    if (raised) this.show();
+    if (raised === "up" && this.own?.moderator && number !== this.own.number) this.tell(`${known.person.name} raises a hand.`);
     this.speak(number, (message.flags & FLAG.speaking) !== 0);
   }
 
@@ -204,7 +210,7 @@ export class Meeting {
   private show(): void {
     if (!this.own) return;
     const people = this.people.all;
-    this.sidebar.list(people, this.own.number, this.own.moderator);
+    this.sidebar.list(people, this.own.number, this.own.moderator, this.raised);
     this.voice.meet(people, this.own.id);
     this.screen.meet(people, this.own.id);
     this.controls.show(this.own, people, this.locked);

@@ -34,8 +34,8 @@ export class Row {
       const button = document.createElement("button");
       Object.assign(button, { type: "button", textContent: title });
       button.addEventListener("click", () => {
-        const asks = action === "remove" && !confirm(`Remove ${this.name.textContent} from the room for good?`);
-        if (!asks) moderate(action);
+        const what = `Remove ${this.name.textContent}? Their tab stays out; by the link they come in as somebody new, unless you lock the room.`;
+        if (action !== "remove" || confirm(what)) moderate(action);
       });
       this.buttons.set(action, button);
       this.small.append(button);
@@ -43,8 +43,8 @@ export class Row {
     this.item.append(this.dot, this.name, this.slider, this.small);
   }
 
-  /** Show how a person is now; `self` is who looks at this page, `chair` whether they may moderate. */
-  show(person: Person, self: boolean, chair: boolean): void {
+  /** Show how a person is now; `self` is who looks at this page, `chair` whether they may moderate, `raises` whether a hand is up. */
+  show(person: Person, self: boolean, chair: boolean, raises: boolean): void {
     this.dot.style.background = person.own ? "" : written(clothesOf(person.number)); // who brought an avatar wears its colours
     this.name.textContent = person.name + (self ? " (you)" : "");
     this.slider.hidden = self || person.replayed;
@@ -52,6 +52,7 @@ export class Row {
     const words = [
       person.moderator ? "moderator" : "",
       person.present ? "" : "away",
+      raises ? "raises a hand" : "",
       person.replayed ? "replay" : person.muted ? "muted by a moderator" : person.voice ? "" : "microphone off",
       this.voice.lacks(person.id) ? "voice does not arrive" : "",
       person.face === "program" ? "face by a program" : "",

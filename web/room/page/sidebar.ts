@@ -3,6 +3,7 @@
 import { byId } from "../../elements.js";
 import type { Act, Person } from "../line/texts.js";
 import type { Voice } from "../voice/voice.js";
+import type { Raised } from "./raised.js";
 import { Row } from "./row.js";
 
 /** Lines of chat that are kept on the page. */
@@ -37,7 +38,7 @@ export class Sidebar {
   }
 
   /** Show who is here; `own` is this person's number, `chair` whether they may moderate. */
-  list(people: Iterable<Person>, own: number, chair: boolean): void {
+  list(people: Iterable<Person>, own: number, chair: boolean, raised: Pick<Raised, "has">): void {
     const sorted = [...people].sort((a, b) => Number(b.number === own) - Number(a.number === own) || a.name.localeCompare(b.name));
     for (const [number, row] of this.rows) {
       if (sorted.some((person) => person.number === number && person.id === row.id)) continue;
@@ -48,7 +49,7 @@ export class Sidebar {
       const { id, number } = person;
       const row = this.rows.get(number) ?? new Row(id, this.voice, (action) => this.moderate(action, number));
       this.rows.set(number, row);
-      row.show(person, number === own, chair);
+      row.show(person, number === own, chair, raised.has(person));
       const there = this.people.children[place];
       if (there !== row.item) this.people.insertBefore(row.item, there ?? null);
     });
