@@ -13,8 +13,12 @@ export interface OwnFace {
   readonly tracked: boolean;
 }
 
-/** A blink: 150 ms, and the next one after two to six seconds, as people blink. */
+/**
+ * A blink, and the next one after two to six seconds, as people blink. Lids stay closed for more than the time between two
+ * states, or others would hardly see them meet.
+ */
 const BLINK_S = 0.15;
+const CLOSED_S = 0.05;
 const BLINK_EVERY_S = [2, 6] as const;
 /** A look to another place: some degrees, every one to three seconds. */
 const LOOK_EVERY_S = [1, 3] as const;
@@ -41,7 +45,8 @@ export class Idle {
       this.lookAt = this.time + between(LOOK_EVERY_S);
       this.look = [between([-1, 1]) * LOOK_RAD[0], between([-1, 1]) * LOOK_RAD[1]];
     }
-    const closing = Math.max(0, 1 - Math.abs((2 * (this.time - this.blinkAt)) / BLINK_S - 1));
+    const middle = Math.abs(this.time - this.blinkAt - BLINK_S / 2);
+    const closing = Math.min(1, Math.max(0, (BLINK_S / 2 - middle) / ((BLINK_S - CLOSED_S) / 2)));
     // a jaw opens faster than it closes, and a louder voice not in proportion
     const wanted = Math.min(1, Math.sqrt(level / LOUD)) * 0.6;
     this.jaw += (wanted - this.jaw) * (1 - Math.exp(-(wanted > this.jaw ? 30 : 14) * seconds));
