@@ -13,6 +13,7 @@ from facegen.refusals import refusal
 from room.errors import FormatError
 from room.gltf.document import Accessor, Document, View, named
 from room.gltf.extensions import READ, check_extensions
+from room.gltf.moved import check_moved
 from room.gltf.numbers import COMPONENTS, check_numbers
 
 MOST_PICTURES = 64
@@ -72,14 +73,17 @@ def check_gltf(document: dict[str, Any], chunks: Chunks, *, where: str, bounds: 
         With one sentence: what was found, what is allowed, what to do.
     """
     try:  # what is raised here begins behind `where`
-        _check_outside(document)
+        extended = _check_everywhere(document)
         told = _told(document)
-        check_extensions(told.extensionsUsed, told.extensionsRequired, read=READ | bounds.extensions)
+        used = {*told.extensionsUsed, *extended}
+        check_extensions(sorted(used), told.extensionsRequired, read=READ | bounds.extensions)
         binary = next((content for kind, content in chunks if kind == BIN), b"")
         _check_views(told, len(binary))
         _check_accessors(told)
-        _check_meshes(told, _drawn(told, bounds.nodes), bounds)
+        drawn = _drawn(told, bounds.nodes)
+        parts = _check_meshes(told, drawn, bounds)
         check_numbers(told)
+        check_moved(told, drawn, parts, most_nodes=bounds.nodes)
         _check_pictures(told, binary)
     except FormatError as error:
         raise FormatError(f"{where} {error}") from None
@@ -92,8 +96,15 @@ def _told(document: dict[str, Any]) -> Document:
         raise FormatError(f"is damaged: {refusal(error, Document)}") from None
 
 
-def _check_outside(document: dict[str, Any]) -> None:
-    """Refuse addresses of anything beside the file, wherever they stand: also in extensions that nobody knows."""
+def _check_everywhere(document: dict[str, Any]) -> set[str]:
+    """Names of all extensions that something has.
+
+    Raises
+    ------
+    FormatError
+        If an address of anything beside the file stands anywhere, also in extensions that nobody knows.
+    """
+    extended: set[str] = set()
     waiting: list[object] = [document]
     while waiting:
         value = waiting.pop()
@@ -103,9 +114,12 @@ def _check_outside(document: dict[str, Any]) -> None:
                     "names a file or an address beside itself (uri), which browsers are never sent to; "
                     "export it as one .glb with everything in it"
                 )
+            if isinstance(names := value.get("extensions"), dict):
+                extended.update(names)
             waiting += value.values()
         elif isinstance(value, list):
             waiting += value
+    return extended
 
 
 def _check_views(told: Document, binary_bytes: int) -> None:
@@ -171,7 +185,8 @@ def _drawn(told: Document, most_nodes: int) -> Counter[int]:
     return Counter(node.mesh for node in told.nodes if node.mesh is not None)
 
 
-def _check_meshes(told: Document, drawn: Counter[int], bounds: Bounds) -> None:
+def _check_meshes(told: Document, drawn: Counter[int], bounds: Bounds) -> int:
+    """How many primitives are drawn."""
     triangles = primitives = 0
     for number, times in drawn.items():
         for primitive in named(told.meshes, number, "mesh").primitives:
@@ -193,6 +208,7 @@ def _check_meshes(told: Document, drawn: Counter[int], bounds: Bounds) -> None:
         raise FormatError(
             f"is drawn in {primitives:,} parts, and at most {bounds.parts:,} are; join meshes of one material"
         )
+    return primitives
 
 
 def _check_pictures(told: Document, binary: bytes) -> None:

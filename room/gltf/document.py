@@ -6,7 +6,7 @@ References
 """
 
 from collections.abc import Sequence
-from typing import Annotated, Literal, TypeVar
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -94,7 +94,14 @@ class Node(_Record):
 class Skin(_Record):
     """Bones that bend a mesh, and where they were when it was made."""
 
+    joints: list[Index] = []
     inverseBindMatrices: Index | None = None
+
+
+class Scene(_Record):
+    """Roots of what is seen together."""
+
+    nodes: list[Index] = []
 
 
 class Sampler(_Record):
@@ -133,9 +140,11 @@ class Document(_Record):
     nodes: list[Node] = []
     images: list[Image] = []
     skins: list[Skin] = []
+    scenes: list[Scene] = []
     animations: list[Animation] = []
     extensionsUsed: list[str] = []
     extensionsRequired: list[str] = []
+    extensions: dict[str, Any] = {}
 
 
 def named(found: Sequence[Found], index: int, what: str) -> Found:

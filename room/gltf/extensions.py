@@ -43,6 +43,15 @@ ACTING = ("interactivity", "behavior", "script", "audio", "event", "link", "hubs
 def check_extensions(used: Iterable[str], required: Iterable[str], *, read: frozenset[str]) -> None:
     """Refuse what acts, and what is needed and not read.
 
+    Parameters
+    ----------
+    used
+        Names that stand anywhere in the file: a reader takes an extension where it stands, declared or not.
+    required
+        Without which the file is another one.
+    read
+        What this kind of file may require. Lights that it may not require are refused, as they shine on everybody.
+
     Raises
     ------
     FormatError
@@ -50,6 +59,10 @@ def check_extensions(used: Iterable[str], required: Iterable[str], *, read: froz
     """
     required = tuple(required)
     for name in (*used, *required):
+        if name in LIGHTS - read:
+            raise FormatError(
+                f"has {name}, by which it lights others and their room; export it without lights"
+            )
         if any(word in name.lower() for word in ACTING):
             raise FormatError(f"has {name[:60]}, by which a file acts by itself; export it without")
     for name in required:

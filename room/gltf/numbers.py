@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from itertools import chain
 
 from room.errors import FormatError
-from room.gltf.document import Accessor, Document, named
+from room.gltf.document import Accessor, Document, Primitive, named
 
 MOST_NUMBERS = 60_000_000
 """In all that a browser makes arrays of, zeros that cost the file nothing among them, and as often as it does: 240 MB.
@@ -20,11 +20,14 @@ def check_numbers(told: Document) -> None:
     Raises
     ------
     FormatError
-        If there are; it begins behind the name of the file.
+        If there are, or a shape moves other vertices than its mesh has; it begins behind the name of the file.
     """
+    shaped = sum(
+        _shaped(told, primitive) for primitive in chain.from_iterable(mesh.primitives for mesh in told.meshes)
+    )
     numbers = max(
         sum(_numbers(accessor) for accessor in told.accessors),
-        sum(_numbers(named(told.accessors, index, "accessor")) for index in _read(told)),
+        shaped + sum(_numbers(named(told.accessors, index, "accessor")) for index in _read(told)),
     )
     if numbers > MOST_NUMBERS:
         raise FormatError(
@@ -37,11 +40,29 @@ def _numbers(accessor: Accessor) -> int:
     return accessor.count * COMPONENTS[accessor.type]
 
 
+def _shaped(told: Document, primitive: Primitive) -> int:
+    """Numbers of a primitive's shapes: what one of them moves is laid out for all, also where it is not given."""
+    words = set(chain.from_iterable(primitive.targets))
+    if not words:
+        return 0
+    counts = {
+        named(told.accessors, index, "accessor").count
+        for word in {"POSITION", *words}
+        for index in (
+            primitive.attributes.get(word),
+            *(target[word] for target in primitive.targets if word in target),
+        )
+        if index is not None
+    }
+    if len(counts) > 1 or not {"POSITION", *words} <= primitive.attributes.keys():
+        raise FormatError("is damaged: one of its shapes moves other vertices than its mesh has")
+    return counts.pop() * len(words) * len(primitive.targets) * COMPONENTS["VEC3"]
+
+
 def _read(told: Document) -> Iterator[int]:
-    """The accessors that a reader makes arrays of, each as often as it is told to."""
+    """The accessors that a reader makes arrays of beside shapes, each as often as it is told to."""
     for primitive in chain.from_iterable(mesh.primitives for mesh in told.meshes):
         yield from primitive.attributes.values()
-        yield from chain.from_iterable(target.values() for target in primitive.targets)
         if primitive.indices is not None:
             yield primitive.indices
     for skin in told.skins:

@@ -15,6 +15,7 @@ from room.protocol.answers import About
 from room.protocol.texts import MOST_TEXT_BYTES
 from room.recording import Recorder, Survey
 from room.server.avatar_requests import AvatarRequests
+from room.server.bodies import Bodies
 from room.server.files import Files, answer, hold
 from room.server.headers import protect
 from room.server.janus import Janus
@@ -99,7 +100,7 @@ class Rooms:
 
     def application(self) -> web.Application:
         """Everything that is answered, and the ticks behind it."""
-        application = web.Application(client_max_size=MOST_TEXT_BYTES)
+        application = web.Application(client_max_size=MOST_TEXT_BYTES, middlewares=[Bodies().pace])
         application.router.add_get("/", self._outside)
         application.router.add_get("/avatars.json", self._avatars)
         application.router.add_get("/health", self._health)

@@ -14,6 +14,9 @@ MOST_CONNECTIONS = 10_000
 MOST_PENDING = 256
 """Connections that have not said yet who they are; each ends after five seconds, the oldest gives way to a new one."""
 
+MOST_BODIES = 1024
+"""Files on their way at one time; each takes at most 256 KiB of memory, as the next piece waits for who reads."""
+
 STATES_PER_S = 60
 """States of one connection: twice what a page sends, as timers of browsers make up for late ones."""
 

@@ -1,5 +1,6 @@
 """Accepts connections: cuts those that ask nothing, and never has more than the system gives files for.
 
+Where there are too many, those of people in rooms stay: a file can be asked for again, and a person would be away.
 asyncio's own servers have no such bound, and write thousands of lines a second where a process has no file left.
 """
 
@@ -8,6 +9,7 @@ import errno
 import os
 import socket
 import ssl
+import weakref
 from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
@@ -50,7 +52,10 @@ def allow_files() -> int:
 
 @dataclass(eq=False)
 class _Taken:
-    """A connection from when it was accepted; ``asked`` once a whole request came by it."""
+    """A connection from when it was accepted; ``asked`` once a whole request came by it.
+
+    ``pending`` is its place among those that give way; none once it is a WebSocket.
+    """
 
     wire: socket.socket
     number: int
@@ -78,7 +83,7 @@ class Listener:
         None for http.
     most
         Connections at one time. With more the oldest that asked nothing yet gives way, of the network that most of
-        these come from; where all have asked, the new one does.
+        these come from; where all have asked, the oldest that is no WebSocket does; where all are, the new one.
     """
 
     def __init__(
@@ -86,18 +91,31 @@ class Listener:
     ) -> None:
         self._protocol, self._tls, self._most = protocol, tls, most
         self._taken: dict[int, _Taken] = {}
-        self._silent = PendingConnections(most=most)
+        self._silent, self._asked = PendingConnections(most=most), PendingConnections(most=most)
 
     @web.middleware
     async def hear(
         self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
     ) -> web.StreamResponse:
         """Note that a connection has asked something: a middleware of the application."""
-        wire = request.transport and request.transport.get_extra_info("socket")
-        if wire is not None and (taken := self._taken.get(wire.fileno())):
-            taken.asked = True
+        if (taken := self._taken_by(request)) and not taken.asked:
             self._forget(taken)
+            taken.asked = True
+            transport = weakref.ref(request.transport)  # which ends without a word to this
+            taken.pending = self._asked.add(request.remote, lambda: self._cut(taken, transport()))
         return await handler(request)
+
+    async def prepare(self, request: web.Request, response: web.StreamResponse) -> None:
+        """Note that a connection is a WebSocket, for ``Application.on_response_prepare``: it gives way no more.
+
+        What says nothing on one ends by itself (`room.server.room_sockets`).
+        """
+        if isinstance(response, web.WebSocketResponse) and (taken := self._taken_by(request)):
+            self._forget(taken)
+
+    def _taken_by(self, request: web.Request) -> _Taken | None:
+        wire = request.transport and request.transport.get_extra_info("socket")
+        return None if wire is None else self._taken.get(wire.fileno())
 
     @asynccontextmanager
     async def listening(
@@ -131,19 +149,23 @@ class Listener:
     def _take(self, wire: socket.socket, address: str | None) -> None:
         if len(self._taken) >= self._most:
             self._sweep()
-        if len(self._taken) >= self._most and (oldest := self._silent.crowd()):
-            self._silent.remove(oldest)
-            oldest.cut()
+        for waiting in (self._silent, self._asked):
+            if len(self._taken) >= self._most and (oldest := waiting.crowd()):
+                waiting.remove(oldest)
+                oldest.cut()
         if len(self._taken) >= self._most:
             wire.close()
             return
+        if before := self._taken.get(wire.fileno()):  # it has ended: the system gave its number again
+            self._forget(before)
         taken = self._taken[wire.fileno()] = _Taken(wire, wire.fileno())
         taken.pending = self._silent.add(address, lambda: self._cut(taken))
         taken.taking = asyncio.create_task(self._open(taken))
 
-    def _cut(self, taken: _Taken) -> None:
+    def _cut(self, taken: _Taken, transport: asyncio.Transport | None = None) -> None:
         if self._taken.get(taken.number) is taken:
             del self._taken[taken.number]
+        taken.transport = transport or taken.transport
         taken.cut()
 
     async def _open(self, taken: _Taken) -> None:
@@ -160,12 +182,15 @@ class Listener:
         except (OSError, asyncio.TimeoutError):  # no TLS, or gone; ssl.SSLError is one
             taken.wire.close()
         finally:
-            self._forget(taken)
+            if not taken.asked:
+                self._forget(taken)
             taken.transport = taken.taking = None
 
     def _forget(self, taken: _Taken) -> None:
         if taken.pending is not None:
             self._silent.remove(taken.pending)
+            self._asked.remove(taken.pending)
+            taken.pending = None
 
     def _sweep(self) -> None:
         """Forget those that have ended: only where there seem to be too many, as each look costs."""

@@ -91,6 +91,7 @@ async def _serve(
     )
     listener = Listener(lambda: _protocol(runner), tls=tls, most=allow_files())
     application.middlewares.append(listener.hear)
+    application.on_response_prepare.append(listener.prepare)
     port = sockets[0].getsockname()[1]
     try:
         await runner.setup()

@@ -22,6 +22,14 @@ from room.avatars.pieces import PIECE_BYTES, pack_piece, read_piece
 from room.errors import FormatError, NotAllowed
 from room.gltf.check import MOST_PICTURES, MOST_SIDE_PIXELS, MOST_TEXTURE_PIXELS
 from room.gltf.extensions import HOW
+from room.gltf.moved import (
+    MOST_BINDS,
+    MOST_CHANNELS,
+    MOST_COLLISIONS,
+    MOST_JOINTS,
+    MOST_SCENES,
+    MOST_SPRUNG,
+)
 from room.gltf.numbers import MOST_NUMBERS
 from room.protocol.answers import Changed, Left, Notice
 from room.server.application import STATIC
@@ -58,6 +66,33 @@ def _with_zeros(primitive: dict | None = None, *, count: int, type: str = "VEC3"
     return avatar(change)
 
 
+def _springs(*, joints: int = 1, colliders: int = 1, groups: int = 0, named: list | None = None):
+    """Springs of VRM 1: a group of all colliders, and more of none."""
+    spring = {"joints": [{"node": 1}] * joints, "colliderGroups": named or [*range(groups + 1)]}
+    springs = {
+        "specVersion": "1.0",
+        "colliders": [{"node": 1, "shape": {"sphere": {}}}] * colliders,
+        "colliderGroups": [{"colliders": [*range(colliders)]}, *[{"colliders": []}] * groups],
+        "springs": [spring],
+    }
+    return _at(extensions={"VRMC_springBone": springs})
+
+
+def _old_springs(*, bones: list = [1], colliders: int = 1, named: list = [0]):  # noqa: B006
+    """Springs of VRM 0."""
+    group = {"node": 1, "colliders": [{"radius": 0.1}] * colliders}
+    springs = {"boneGroups": [{"bones": bones, "colliderGroups": named}], "colliderGroups": [group]}
+    return _at(extensions={"VRM": {"secondaryAnimation": springs}})
+
+
+def _expressions(**binds: list) -> dict:
+    return {"VRMC_vrm": {"expressions": {"preset": {"aa": binds}}}}
+
+
+def _old_expressions(**binds: list) -> dict:
+    return {"VRM": {"blendShapeMaster": {"blendShapeGroups": [{"name": "A", **binds}]}}}
+
+
 def _many_pictures(made: dict) -> None:
     made["images"] *= MOST_PICTURES + 1
 
@@ -88,6 +123,84 @@ REFUSED = {
     "copies": (
         avatar(lambda made: made.update(extensionsUsed=["EXT_mesh_gpu_instancing"])),
         "acts by itself",
+    ),
+    "copies that nobody declared": (
+        avatar(_at("nodes", 0, extensions={"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}})),
+        "acts by itself",
+    ),
+    "lights": (avatar(_at("nodes", 1, extensions={"KHR_lights_punctual": {"light": 0}})), "without lights"),
+    "a shape of no mesh": (
+        avatar(_at("meshes", 0, "primitives", 0, attributes={}, indices=1)),
+        "moves other vertices",
+    ),
+    "a shape of other directions alone": (
+        avatar(_at("meshes", 0, "primitives", 0, targets=[{"NORMAL": 1}])),
+        "moves other vertices",
+    ),
+    "shapes of one vertex": (avatar(_at("accessors", 1, count=1)), "moves other vertices"),
+    "shapes that move nothing": (
+        _with_zeros(
+            {"attributes": {"POSITION": 2}, "targets": [{"POSITION": 2}] + [{}] * 2_000}, count=10_000
+        ),
+        "fewer vertices",
+    ),
+    "a skin of many joints": (avatar(_at(skins=[{"joints": [0, 1] * MOST_JOINTS}])), "joints in its skins"),
+    "a joint that is not there": (avatar(_at(skins=[{"joints": [2]}])), "names node 2"),
+    "many scenes": (avatar(_at(scenes=[{}] * (MOST_SCENES + 1))), "scenes"),
+    "a scene of one node many times": (avatar(_at(scenes=[{"nodes": [0] * (MOST_NODES + 1)}])), "scenes"),
+    "many movements": (
+        _with_zeros(
+            count=1,
+            animations=[
+                {"samplers": [{"input": 2, "output": 2}], "channels": [{"sampler": 0}] * (MOST_CHANNELS + 1)}
+            ],
+        ),
+        "without animations",
+    ),
+    "springs of many joints": (avatar(_springs(joints=MOST_SPRUNG + 1)), "fewer bones springs"),
+    "springs of many colliders": (avatar(_springs(colliders=MOST_SPRUNG + 1)), "fewer bones springs"),
+    "springs beside many colliders": (
+        avatar(_springs(joints=1_000, colliders=MOST_COLLISIONS // 1_000 + 1)),
+        "fewer colliders",
+    ),
+    "springs beside many groups of none": (
+        avatar(_springs(joints=1_000, groups=MOST_COLLISIONS // 1_000 + 1)),
+        "fewer colliders",
+    ),
+    "springs of a group by its text": (avatar(_springs(named=["0"])), "no whole number"),
+    "old springs of many colliders": (avatar(_old_springs(colliders=MOST_SPRUNG + 1)), "fewer bones springs"),
+    "old springs again and again": (avatar(_old_springs(bones=[0] * 3_000)), "fewer bones springs"),
+    "old springs beside many colliders": (
+        avatar(_old_springs(bones=[0] * 10, colliders=100, named=[0] * 60)),
+        "fewer colliders",
+    ),
+    "old springs of a bone by its text": (avatar(_old_springs(bones=["0"])), "no whole number"),
+    "many expressions": (
+        avatar(
+            _at(
+                extensions={
+                    "VRMC_vrm": {"expressions": {"custom": {f"a{n}": {} for n in range(MOST_BINDS + 1)}}}
+                }
+            )
+        ),
+        "fewer expressions",
+    ),
+    "an expression of many shapes": (
+        avatar(_at(extensions=_expressions(morphTargetBinds=[{"node": 0, "index": 0}] * MOST_BINDS))),
+        "fewer expressions",
+    ),
+    "an old expression of one mesh many times": (
+        avatar(
+            lambda made: (
+                made["nodes"].extend([{"mesh": 0}] * 99),
+                _at(extensions=_old_expressions(binds=[{"mesh": 0, "index": 0}] * (MOST_BINDS // 100)))(made),
+            )
+        ),
+        "fewer expressions",
+    ),
+    "old expressions of many materials": (
+        avatar(_at(extensions=_old_expressions(materialValues=[{"materialName": "a"}] * MOST_BINDS))),
+        "fewer expressions",
     ),
     "Draco": (
         avatar(lambda made: made.update(extensionsRequired=["KHR_draco_mesh_compression"])),
@@ -123,14 +236,14 @@ REFUSED = {
         "triangles",
     ),
     "one mesh many times": (avatar(lambda made: made["nodes"].extend([{"mesh": 0}] * MOST_DRAWN)), "parts"),
-    "a shape of zeros": (avatar(_at("accessors", 1, count=MOST_NUMBERS // 3)), "fewer vertices"),
-    "one shape again and again": (
-        avatar(
-            lambda made: (
-                _at("accessors", 1, count=10_000)(made),
-                _at("meshes", 0, "primitives", 0, targets=[{"POSITION": 1}] * 2_001)(made),
-            )
+    "a shape of zeros": (
+        _with_zeros(
+            {"attributes": {"POSITION": 2}, "targets": [{"POSITION": 2}], "mode": 0}, count=MOST_NUMBERS // 3
         ),
+        "fewer vertices",
+    ),
+    "one shape again and again": (
+        _with_zeros({"attributes": {"POSITION": 2}, "targets": [{"POSITION": 2}] * 2_001}, count=10_000),
         "fewer vertices",
     ),
     "indices of points": (
@@ -215,6 +328,34 @@ def test_whole_avatars_are_taken():
     assert ready
     for path in ready:
         check_avatar(path.read_bytes())
+
+
+def _usual(made: dict) -> None:
+    """As much of everything as rich VRMs of both versions have."""
+    made["nodes"] += [{} for _ in range(600)]
+    made["nodes"][1]["children"] = [*range(2, 602)]
+    made["meshes"][0]["primitives"] *= 10
+    made["skins"] = [{"joints": [*range(300)]}] * 40
+    made["scenes"] = [{"nodes": [0]}]
+    hair = [*range(2, 302)]
+    _old_springs(bones=hair, colliders=10, named=[0, 0])(made)
+    old = made["extensions"]["VRM"]
+    old["blendShapeMaster"] = {
+        "blendShapeGroups": [
+            {
+                "name": f"A{number}",
+                "binds": [{"mesh": 0, "index": 0, "weight": 100}] * 10,
+                "materialValues": [{"materialName": "a"}] * 4,
+            }
+            for number in range(70)
+        ]
+    }
+    _springs(joints=500, colliders=20)(made)
+    made["extensions"] |= {"VRM": old, **_expressions(morphTargetBinds=[{"node": 0, "index": 0}] * 500)}
+
+
+def test_rich_avatars_are_taken():
+    check_avatar(avatar(_usual))
 
 
 @given(st.integers(0, len(avatar()) - 1), st.integers(0, 255))

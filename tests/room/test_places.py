@@ -72,6 +72,10 @@ REFUSED = {
     "an address that nobody knows": ({"extensions": {"ANY_thing": {"a": [{"uri": "x"}]}}}, "beside itself"),
     "a script": ({"extensionsUsed": ["KHR_interactivity"]}, "acts by itself"),
     "what multiplies": ({"extensionsUsed": ["EXT_mesh_gpu_instancing"]}, "acts by itself"),
+    "what multiplies, and is not declared": (
+        {"nodes": [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {}}}, {"name": "place.1"}]},
+        "acts by itself",
+    ),
     "what is not read": ({"extensionsRequired": ["KHR_draco_mesh_compression"]}, "does not read"),
     "too many triangles": (_drawn(MOST_TRIANGLES + 1), "decimate it"),
     "nothing to look at": ({"nodes": [{"name": "place.1"}]}, "nothing to look at"),
