@@ -49,6 +49,9 @@ PACK_FORMATS: dict[str, PackFormat] = {
 
 ABOUT, INDEX = "pack.json", "index.json"
 
+_UNTOLD = 1
+"""Version of a pack whose ``pack.json`` tells none, as those of facegen 1.0."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class PackPlan:
@@ -183,6 +186,7 @@ def _description(plan: PackPlan) -> dict:
     options = {key: list(v) if isinstance(v, tuple) else v for key, v in asdict(plan.options).items()}
     return {
         "format": plan.name,
+        "version": PACK_FORMATS[plan.name].version,
         "licence": described["licence"],
         "options": options,
         "samples": format_ranges(plan.samples),
@@ -198,8 +202,14 @@ def _begin(folder: DatasetFolder, description: dict) -> None:
             entry.name != "tmp" and not is_litter(entry.name) for entry in folder.path.iterdir()
         )
     if about.is_file():
-        if read_json(about) != description:
+        found = {"version": _UNTOLD} | read_json(about)
+        if found | {"version": description["version"]} != description:
             raise InputError(f"{folder.path}: holds another pack; choose another folder, or delete this one")
+        if found != description:
+            raise InputError(
+                f"{folder.path}: was packed by another version of facegen, whose files of the format "
+                f"{description['format']!r} differ; choose another folder, or delete this one"
+            )
         return
     if full:
         raise InputError(f"{folder.path}: is not empty and holds no pack; choose another folder")
