@@ -3,9 +3,9 @@
 import shutil
 from dataclasses import dataclass
 
-from facegen.errors import InputError, Unanswered
+from facegen.errors import InputError
 from facegen.farm.job import STEPS, Job, asked_jobs
-from facegen.farm.state import FarmState, farm_state
+from facegen.farm.state import FarmState, answered_state
 from facegen.farm.submission import Remaining, prepare, remaining
 from facegen.spec import format_ranges
 from facegen.store import Dataset
@@ -57,12 +57,7 @@ def plan_resumption(dataset: Dataset, *, retry_quarantined: bool = False) -> Res
             f"{dataset.folder.path}: was never submitted to a farm; begin with: facegen farm submit"
         )
     newest = list(jobs.values())[-1]
-    state = farm_state(dataset)
-    if state.unknown:
-        raise Unanswered(
-            f"{dataset.folder.path}: {newest.engine} does not say what it does with {', '.join(state.unknown)}, so "
-            "tasks might be submitted twice; resume when it answers"
-        )
+    state = answered_state(dataset)
     # an older job may have been asked for more than the newest
     requests = list(dict.fromkeys((job.samples, job.shards) for job in jobs.values()))
     left = [

@@ -55,6 +55,7 @@ def prepare(
     chunk: int | None = None,
     packed: str | None = None,
     model: str | None = None,
+    at_work: tuple[tuple[Job, str], ...] = (),
 ) -> Job:
     """Write a job's record and its scripts or bundle below ``OUT/farm``; nothing is handed over.
 
@@ -76,12 +77,14 @@ def prepare(
         Samples a task.
     packed, model
         Folders for ``pack`` and ``train``; without, beside the dataset.
+    at_work
+        Later steps of other jobs that engines have.
 
     Raises
     ------
     InputError
-        If ``chunk`` makes too many tasks, the folder holds another dataset, or the engine or a shell would not take
-        what would be written.
+        If ``chunk`` makes too many tasks, a step of another job writes into the same folder, the folder holds another
+        dataset, or the engine or a shell would not take what would be written.
     OutputError
         If the folder cannot be written.
     """
@@ -105,6 +108,7 @@ def prepare(
         whole=_is_whole(dataset, samples, shards),
         rigs=str(rigs_folder().resolve()),
     )
+    _refuse_rivals(draft, at_work)
     with tempfile.TemporaryDirectory() as folder:  # what is refused leaves nothing in the dataset
         _write_files(draft, Path(folder))
         _engine(draft).check(Path(folder))
@@ -115,6 +119,21 @@ def prepare(
         _write_files(job, job.folder)
     write_record(job.folder / "job.json", job)
     return job
+
+
+def _refuse_rivals(job: Job, at_work: tuple[tuple[Job, str], ...]) -> None:
+    """See that no two steps write into one folder of a pack or a model at a time."""
+    for rival, step in at_work:
+        place = _place(rival, step)
+        if place is not None and place in {_place(job, own) for own in job.steps}:
+            raise InputError(
+                f"{place}: the step {step!r} of {rival.name} is to write there, and two at a time must not; submit the "
+                "steps that write there when it has ended, or name another folder with --packed or --model"
+            )
+
+
+def _place(job: Job, step: str) -> str | None:
+    return {"pack": job.packed, "train": job.model, "export": job.model}.get(step)
 
 
 def _is_whole(dataset: Dataset, samples: str | None, shards: str | None) -> bool:
