@@ -12,6 +12,7 @@ from facegen.farm.engine import Activity, Engine
 from facegen.farm.engines import ENGINES
 from facegen.farm.job import Job, Resources, Submission, list_jobs, new_job_name, write_record
 from facegen.files import output_errors
+from facegen.packing import check_pack
 from facegen.rigs import rigs_folder
 from facegen.spec import format_ranges
 from facegen.store import Dataset, DatasetFolder, begin
@@ -83,8 +84,8 @@ def prepare(
     Raises
     ------
     InputError
-        If ``chunk`` makes too many tasks, a step of another job writes into the same folder, the folder holds another
-        dataset, or the engine or a shell would not take what would be written.
+        If ``chunk`` makes too many tasks, a step of another job writes into the same folder, the pack's holds another
+        pack, the folder holds another dataset, or the engine or a shell would not take what would be written.
     OutputError
         If the folder cannot be written.
     """
@@ -113,6 +114,8 @@ def prepare(
         _write_files(draft, Path(folder))
         _engine(draft).check(Path(folder))
     begin(dataset)
+    if "pack" in steps:
+        _check_packed(dataset, draft)
     job = replace(draft, name=new_job_name(dataset.folder))
     with output_errors(job.folder):
         (job.folder / "logs").mkdir(exist_ok=True)
@@ -130,6 +133,15 @@ def _refuse_rivals(job: Job, at_work: tuple[tuple[Job, str], ...]) -> None:
                 f"{place}: the step {step!r} of {rival.name} is to write there, and two at a time must not; submit the "
                 "steps that write there when it has ended, or name another folder with --packed or --model"
             )
+
+
+def _check_packed(dataset: Dataset, job: Job) -> None:
+    """See that ``pack`` will be able to begin: it is told when the job is submitted, and not hours later."""
+    samples = dataset.samples_to_render(job.samples)
+    try:
+        check_pack(dataset, job.packed, samples=samples, chosen=None if job.whole else job.samples)
+    except InputError as error:
+        raise InputError(f"{error}; --packed of farm submit names the folder of the step 'pack'") from error
 
 
 def _place(job: Job, step: str) -> str | None:

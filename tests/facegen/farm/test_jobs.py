@@ -134,6 +134,50 @@ def test_no_two_steps_write_into_one_folder(engine, tmp_path, step, option, fold
     submit(tmp_path, *place[:-1], str(tmp_path / "other"))
 
 
+def begin_pack(out: Path, samples: list[int], *options: str) -> None:
+    """Let `pack` begin with samples that are there by name alone; it stops at the first."""
+    for number in samples:
+        (out / "renders" / "000" / f"{number:06d}").mkdir(parents=True, exist_ok=True)
+    done = CliRunner().invoke(app, ["pack", str(out), "--out", f"{out}-packed", *options])
+    assert done.exit_code
+    assert Path(f"{out}-packed", "pack.json").is_file()
+
+
+def test_a_job_that_has_grown_is_told_before_that_its_pack_cannot_go_where_the_first_one_went(
+    engine, tmp_path
+):
+    few = RENDERED.replace("19", "4")
+    out = submit(tmp_path, "--steps", "generate,pack", spec=SPEC + few)
+    begin_pack(out, [0, 1, 2, 3, 4])
+    submit(tmp_path, "--steps", "generate,pack", spec=SPEC + few)  # goes on with it
+    jobs = sorted((out / "farm").iterdir())
+    (tmp_path / "spec.toml").write_text(SPEC + RENDERED)
+    for more in ((), ("--samples", "0-3")):
+        again = ("--out", out, "--engine", "slurm", "--steps", "generate,pack", *more)
+        refusal = farm("submit", tmp_path / "spec.toml", *again).exception
+        assert isinstance(refusal, InputError)
+        assert f"{out}-packed: holds another pack" in str(refusal)
+        assert "--packed" in str(refusal)
+        assert sorted((out / "farm").iterdir()) == jobs
+        submit(
+            tmp_path,
+            "--steps",
+            "generate,pack",
+            *more,
+            "--packed",
+            f"{out}-{len(more)}",
+            spec=SPEC + RENDERED,
+        )
+        shutil.rmtree(out / "farm" / "job-003")
+
+
+def test_a_slices_pack_goes_on_where_that_slice_was_packed(engine, tmp_path):
+    slice_of = ("--samples", "5-6")
+    out = submit(tmp_path, "--steps", "generate,pack", *slice_of, spec=SPEC + RENDERED)
+    begin_pack(out, [5, 6], *slice_of)
+    submit(tmp_path, "--steps", "generate,pack", *slice_of, spec=SPEC + RENDERED)
+
+
 def test_a_dry_run_does_not_narrow_what_is_resumed(engine, tmp_path):
     out = submit(tmp_path, spec=SPEC + RENDERED)
     submit(tmp_path, "--samples", "0-9", "--steps", "generate,train", "--dry-run", spec=SPEC + RENDERED)
