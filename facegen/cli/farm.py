@@ -155,9 +155,8 @@ def resume(
         print_table({"job": None, "tasks": 0}, as_json=as_json)
         return
     job = farm.prepare_resumption(opened, resumption, chunk=chunk)
-    if retry_quarantined and not dry_run:
-        farm.forget_quarantined(opened, resumption)
-    _hand_over(opened, job, dry_run=dry_run, wait=wait, as_json=as_json)
+    retried = resumption.state.quarantined if retry_quarantined else ()
+    _hand_over(opened, job, retried=retried, dry_run=dry_run, wait=wait, as_json=as_json)
 
 
 @farm_app.command()
@@ -222,7 +221,9 @@ def cancel(dataset: Folder) -> None:
     print(f"cancelled: {', '.join(names) or 'nothing, no job is running'}")
 
 
-def _hand_over(dataset: "Dataset", job: "Job", *, dry_run: bool, wait: bool, as_json: bool) -> None:
+def _hand_over(
+    dataset: "Dataset", job: "Job", *, retried: tuple[str, ...] = (), dry_run: bool, wait: bool, as_json: bool
+) -> None:
     """Submit a job and print what became of it; after a dry run print what would be submitted."""
     from facegen import farm
 
@@ -237,7 +238,7 @@ def _hand_over(dataset: "Dataset", job: "Job", *, dry_run: bool, wait: bool, as_
             print(f"==> {job.folder / name} <==\n{text}")
         print("\n".join(engine.instructions(job)))
         return
-    submission = farm.submit(job)
+    submission = farm.submit(job, retried=retried)
     if not wait:
         table |= {"ids": submission.ids}
         commands = [] if submission.ids else engine.instructions(job)

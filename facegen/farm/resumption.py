@@ -1,6 +1,5 @@
 """Resumes a dataset: the missing things that no engine is at become a new job, as the newest was submitted."""
 
-import shutil
 from dataclasses import dataclass
 
 from facegen.errors import InputError
@@ -117,9 +116,3 @@ def prepare_resumption(dataset: Dataset, resumption: Resumption, *, chunk: int |
             raise
         # it speaks of options, and was given none
         raise InputError(f"{dataset.folder.path / 'farm' / newest.name / 'job.json'}: {error}") from error
-
-
-def forget_quarantined(dataset: Dataset, resumption: Resumption) -> None:
-    """Remove the records of what failed three times, so that it is tried again."""
-    for name in resumption.state.quarantined:
-        shutil.rmtree(dataset.folder.quarantine(name), ignore_errors=True)

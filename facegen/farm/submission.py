@@ -1,8 +1,10 @@
 """Submits a job: cuts what is missing into tasks, writes them as scripts or a bundle, hands them to the engine."""
 
+import contextlib
 import os
 import shutil
 import tempfile
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,11 +13,11 @@ from facegen.farm.chunks import cut_chunks
 from facegen.farm.engine import Activity, Engine
 from facegen.farm.engines import ENGINES
 from facegen.farm.job import Job, Resources, Submission, list_jobs, new_job_name, write_record
+from facegen.farm.places import check_packed, refuse_rivals
 from facegen.files import output_errors
-from facegen.packing import check_pack
 from facegen.rigs import rigs_folder
 from facegen.spec import format_ranges
-from facegen.store import Dataset, DatasetFolder, begin
+from facegen.store import Dataset, DatasetFolder, begin, staging
 from facegen.work import Task, plan_work, wanted_tasks
 
 
@@ -109,43 +111,19 @@ def prepare(
         whole=_is_whole(dataset, samples, shards),
         rigs=str(rigs_folder().resolve()),
     )
-    _refuse_rivals(draft, at_work)
+    refuse_rivals(draft, at_work)
     with tempfile.TemporaryDirectory() as folder:  # what is refused leaves nothing in the dataset
         _write_files(draft, Path(folder))
         _engine(draft).check(Path(folder))
     begin(dataset)
     if "pack" in steps:
-        _check_packed(dataset, draft)
+        check_packed(dataset, draft)
     job = replace(draft, name=new_job_name(dataset.folder))
     with output_errors(job.folder):
         (job.folder / "logs").mkdir(exist_ok=True)
         _write_files(job, job.folder)
     write_record(job.folder / "job.json", job)
     return job
-
-
-def _refuse_rivals(job: Job, at_work: tuple[tuple[Job, str], ...]) -> None:
-    """See that no two steps write into one folder of a pack or a model at a time."""
-    for rival, step in at_work:
-        place = _place(rival, step)
-        if place is not None and place in {_place(job, own) for own in job.steps}:
-            raise InputError(
-                f"{place}: the step {step!r} of {rival.name} is to write there, and two at a time must not; submit the "
-                "steps that write there when it has ended, or name another folder with --packed or --model"
-            )
-
-
-def _check_packed(dataset: Dataset, job: Job) -> None:
-    """See that ``pack`` will be able to begin: it is told when the job is submitted, and not hours later."""
-    samples = dataset.samples_to_render(job.samples)
-    try:
-        check_pack(dataset, job.packed, samples=samples, chosen=None if job.whole else job.samples)
-    except InputError as error:
-        raise InputError(f"{error}; --packed of farm submit names the folder of the step 'pack'") from error
-
-
-def _place(job: Job, step: str) -> str | None:
-    return {"pack": job.packed, "train": job.model, "export": job.model}.get(step)
 
 
 def _is_whole(dataset: Dataset, samples: str | None, shards: str | None) -> bool:
@@ -171,8 +149,16 @@ def _engine(job: Job) -> Engine:
     return ENGINES[job.engine]
 
 
-def submit(job: Job) -> Submission:
+def submit(job: Job, *, retried: tuple[str, ...] = ()) -> Submission:
     """Hand a prepared job to its engine, and write down under which numbers.
+
+    Parameters
+    ----------
+    job
+        From `prepare`.
+    retried
+        Names of what failed three times and is to be tried again: the tasks would leave it out by its records, which
+        go, unless the engine does not take the job.
 
     Raises
     ------
@@ -182,7 +168,8 @@ def submit(job: Job) -> Submission:
         If the engine may have taken it; what runs then finds its folder.
     """
     try:
-        submission = _engine(job).submit(job)
+        with _put_aside(DatasetFolder(Path(job.out)), retried):
+            submission = _engine(job).submit(job)
     except Unanswered as error:
         raise Unanswered(
             f"{error}; {job.name} may be queued all the same, so {job.folder} is kept: cancel what the queue has of "
@@ -193,6 +180,26 @@ def submit(job: Job) -> Submission:
         raise
     write_record(job.folder / "submission.json", submission)
     return submission
+
+
+@contextlib.contextmanager
+def _put_aside(folder: DatasetFolder, names: tuple[str, ...]) -> Iterator[None]:
+    """Remove records of the quarantine for good at the end, or put them back where a job certainly was not taken."""
+    if not names:
+        yield
+        return
+    with staging(folder, "retried") as stage:
+        for name in names:
+            with contextlib.suppress(FileNotFoundError):
+                os.rename(folder.quarantine(name), stage / name)
+        try:
+            yield
+        except Unanswered:
+            raise
+        except BaseException:
+            for record in stage.iterdir():
+                os.rename(record, folder.quarantine(record.name))
+            raise
 
 
 def cancel(folder: DatasetFolder) -> list[str]:

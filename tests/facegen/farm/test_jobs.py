@@ -205,6 +205,29 @@ def test_of_an_engine_that_does_not_answer_nothing_is_submitted_twice(engine, tm
         assert not (out / "farm" / "job-002").exists()
 
 
+@pytest.mark.parametrize("taken", [True, False])
+def test_records_of_what_failed_go_with_the_job_that_tries_again(engine, tmp_path, taken):
+    out = submit(tmp_path, spec=SPEC + RENDERED)
+    record = out / "quarantine" / "sample-000003"
+    record.mkdir(parents=True)
+    (record / "first.log").write_text("why")
+    seen: list[bool] = []
+
+    def answer(job: Job) -> Submission:
+        seen.append(record.exists())
+        if not taken:
+            raise InputError("sbatch refused: no such partition")
+        return Submission(ids={"generate": "8"})
+
+    engine.submit = answer
+    done = farm("resume", out, "--retry-quarantined")
+    assert seen == [False], "the tasks would leave it out"
+    assert (done.exit_code == 0) == taken
+    assert record.exists() != taken
+    assert taken or (record / "first.log").read_text() == "why"
+    assert not list((out / "tmp").iterdir())
+
+
 def dry_script(folder: Path, step: str, *options: str) -> str:
     """A step's script for Slurm, which is asked for nothing."""
     (folder / "spec.toml").write_text(SPEC + RENDERED)
