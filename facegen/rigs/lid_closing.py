@@ -97,7 +97,9 @@ def close_eye(
                 lid[i, axis] = at
                 opened[i, axis] = at - down * lids.closing[0, i, axis] - squint * lids.closing[1, i, axis]
             length = _length(opened, i)
-            thickness[i] = length - _support(lids, opened, i, length, radius[face], cornea_offset[face], AHEAD)[0]
+            thickness[i] = (
+                length - _support(lids, opened, i, length, radius[face], cornea_offset[face], AHEAD)[0]
+            )
         measure_gap(lids, opened, gap)
         measure_gap(lids, lid, scale)
         for k in range(columns):
