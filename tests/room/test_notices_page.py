@@ -96,6 +96,23 @@ def test_a_camera_that_opens_after_the_end_is_closed_and_the_last_word_stays(goe
     asyncio.run(run())
 
 
+def test_a_window_that_was_chosen_too_slowly_is_told_in_words_of_ours():
+    refused = """void (navigator.mediaDevices.getDisplayMedia = async () => {
+      throw new DOMException('', 'InvalidStateError');
+    })"""
+
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                await come_in(tab, "Ada")
+                await tab.ask(refused)
+                await tab.ask(WISH.format("window"))
+                await tab.until(f"{STATE}.endsWith('choose once more.')")
+
+    asyncio.run(run())
+
+
 def test_a_window_that_is_given_after_the_end_is_not_captured():
     async def run() -> None:
         accept = "--auto-accept-this-tab-capture"

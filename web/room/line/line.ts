@@ -6,8 +6,11 @@ import type { Answer, Said, Welcome } from "./texts.js";
 /** A server that starts again is back in a second: short waits first, and never so long that people miss three seconds of it. */
 const WAITS_MS = [200, 400, 800, 1000, 2000];
 
-/** A try that brought no welcome by then is given up: no network that carries a voice takes so long. */
-const PATIENCE_MS = 4000;
+/**
+ * A try that brought no welcome by then is given up: no network that carries a voice takes so long. A server under load may,
+ * and would never let anybody in: each try that was given up lets the next one take twice as long, up to the last of these.
+ */
+const PATIENCE_MS = [4000, 8000, 16_000];
 
 /**
  * Milliseconds without a word from the server, which gives each state back within a tick, until the line counts as broken. Of
@@ -34,6 +37,8 @@ export class Line {
   /** Whether the room has said why the newest socket ends. */
   private refused = false;
   private tries = 0;
+  /** Tries that were given up since the last welcome. */
+  private late = 0;
   private sequence = 0;
   private unanswered = 0;
   /** When the server was heard last, and when the first state behind that went out. */
@@ -98,7 +103,7 @@ export class Line {
   private hear(answer: Answer): void {
     if (answer.kind === "welcome") {
       this.open = true;
-      this.tries = 0;
+      this.tries = this.late = 0;
       this.handlers.welcome(answer);
     } else if (answer.kind === "refused") {
       this.ended = !answer.again;
@@ -126,10 +131,12 @@ export class Line {
     const waits = (): boolean => this.socket === socket && !this.open;
     const late = (): void => {
       if (!waits()) return;
+      this.late++;
       this.drop();
       this.closed();
     };
-    setTimeout(() => waits() && setTimeout(late, SILENT_MS.online), PATIENCE_MS);
+    const patience = PATIENCE_MS[Math.min(this.late, PATIENCE_MS.length - 1)]!;
+    setTimeout(() => waits() && setTimeout(late, SILENT_MS.online), patience);
   }
 
   /** Give a socket up that states went into for so long without a word back; whether it was. */

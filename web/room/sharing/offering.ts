@@ -41,7 +41,7 @@ export class Offering {
       const wish = share.value;
       share.value = "";
       share.blur();
-      if (wish === "window") void this.begin(() => this.sharing.window());
+      if (wish === "window") void this.begin(() => this.sharing.window().catch(slow));
       if (wish === "picture") picture.click();
       if (wish === "paper") paper.click();
       if (wish === "nothing") this.end();
@@ -148,4 +148,10 @@ export class Offering {
     byId<HTMLButtonElement>("before").disabled = this.page === 1;
     byId<HTMLButtonElement>("next").disabled = this.page === this.paper.pages;
   }
+}
+
+/** A browser gives a window only just after a click, and the list may have been open for longer. */
+function slow(error: unknown): never {
+  const late = error instanceof DOMException && error.name === "InvalidStateError";
+  throw late ? new Error("the browser takes quick choices alone; choose once more") : error;
 }

@@ -172,3 +172,22 @@ test("behind another network a try that was begun before is made anew at once", 
   Socket.made[1]!.say({ kind: "welcome" });
   assert.deepEqual(heard, ["welcome"]);
 });
+
+test("each try that was given up leaves the next one more time, until there is a welcome", () => {
+  const { heard } = open();
+  const lasted = (): number => {
+    const [socket, before] = [Socket.made.at(-1)!, heard.length];
+    let ms = 0;
+    for (; socket.readyState === Socket.OPEN; ms += 100) mock.timers.tick(100);
+    assert.deepEqual(heard.slice(before), ["broken"]);
+    wait(2000); // the next try has begun
+    return Math.round(ms / 1000);
+  };
+  const tries = [lasted()];
+  for (let number = 0; number < 3; number++) tries.push(lasted() + 2);
+  assert.ok(tries.every((seconds, number) => Math.abs(seconds - [5, 9, 17, 17][number]!) <= 2), `${tries}`);
+  Socket.made.at(-1)!.say({ kind: "welcome" });
+  Socket.made.at(-1)!.end();
+  wait(200);
+  assert.equal(Math.round(lasted()), 5);
+});
