@@ -33,6 +33,7 @@ from room.gltf.moved import (
 from room.gltf.numbers import MOST_NUMBERS
 from room.protocol.answers import Changed, Left, Notice
 from room.server.application import STATIC
+from room.server.avatar_checks import AvatarChecks
 from room.server.limits import MOST_UPLOADS_A_ROOM, UPLOADS_BURST
 from tests.room.avatars import BINARY, POINTS, avatar, png, textured
 from tests.room.guests import Guest, Place, open_room
@@ -462,6 +463,49 @@ def test_one_may_take_it_off_and_a_moderator_may_for_good():
         assert (await bring(place, again, avatar()))[0] == 403, "the same person, whom one click brought back"
 
     meet(run)
+
+
+def test_avatars_are_checked_by_another_process(monkeypatch):
+    """A parser of this one would halt all rooms."""
+    monkeypatch.setattr("facegen.formats.gltf_container.parse_json", None)
+
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        assert (await bring(place, ada, avatar()))[0] == 200
+        assert (await bring(place, ada, textured(b"<svg>")))[0] == 422
+
+    meet(run)
+
+
+def test_one_process_checks_all_and_another_begins_where_it_was_lost(monkeypatch):
+    async def run() -> None:
+        checks = AvatarChecks()
+        await checks.check(avatar())
+        first = checks._process
+        for fault in ("SVG", "springs of many joints", "nothing"):
+            with pytest.raises(FormatError, match=REFUSED[fault][1]):
+                await checks.check(REFUSED[fault][0])
+        assert checks._process is first
+        first.kill()
+        with pytest.raises(FormatError, match="a simpler one"):
+            await checks.check(avatar())
+        await checks.check(avatar())
+        second = checks._process
+        asked = asyncio.create_task(checks.check(textured(b"<svg>")))
+        await asyncio.sleep(0)
+        asked.cancel()
+        await asyncio.gather(asked, return_exceptions=True)
+        await checks.check(avatar())  # and is not told of the other's fault
+        assert second.returncode is not None
+        monkeypatch.setattr("room.server.avatar_checks.CHECK_S", 0)
+        with pytest.raises(FormatError, match="a simpler one"):
+            await checks.check(avatar())
+        monkeypatch.undo()
+        await checks.check(avatar())
+        third = checks._process
+        await checks.close()
+        assert third.returncode is not None
+
+    asyncio.run(asyncio.wait_for(run(), 300))
 
 
 def test_refusals_are_sentences_and_change_nothing():
