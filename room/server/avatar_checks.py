@@ -1,4 +1,4 @@
-"""Has avatars checked by another process: parsing one takes up to a second, and no thread of this one would run then."""
+"""Has avatars checked by another process: parsing one takes up to a second, and no thread of this one runs then."""
 
 import asyncio
 import sys
