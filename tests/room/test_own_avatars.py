@@ -368,7 +368,7 @@ def test_any_byte_may_be_another(place, byte):
 
 
 def test_the_store_keeps_each_avatar_once_and_no_more_than_it_may():
-    store = AvatarStore(most_bytes=10)
+    store = AvatarStore(most_bytes=13)
     digest = store.put(b"abcdef", ("lab", "ada"))
     assert store.put(b"abcdef", ("lab", "ben")) == digest == hashlib.sha256(b"abcdef").hexdigest()
     assert store.kept_bytes == 6
@@ -381,6 +381,17 @@ def test_the_store_keeps_each_avatar_once_and_no_more_than_it_may():
     store.drop(("lab", "ben"))
     assert store.kept_bytes == 0
     assert store.put(b"ghijkl", ("lab", "cy")) != digest
+
+
+@given(st.lists(st.tuples(st.sampled_from("abc"), st.integers(0, 20), st.integers(1, 40)), max_size=60))
+def test_no_room_keeps_others_from_the_store(brought):
+    """However three of them fill it, an eighth is left."""
+    store = AvatarStore(most_bytes=160)
+    for number, (room, person, size) in enumerate(brought):
+        with suppress(NotAllowed):
+            store.put(number.to_bytes(1, "little") * size, (room, str(person)))
+        assert store.kept_bytes <= 140
+    store.put(b"x" * 10, ("late", "ada"))
 
 
 def _bearer(place: Place, guest: Guest | None = None, key: str = "") -> dict[str, str]:
