@@ -1,6 +1,8 @@
 """Compiles loops over arrays to machine code, for the few that NumPy's whole-array steps make many times slower.
 
 A module of compiled loops is imported inside the function that needs it: Numba takes half a second to import.
+It imports nothing else of facegen. Numba compiles constants in, and sees that a kept result is old by the function's
+own file alone: a constant of another module comes as an argument.
 """
 
 from collections.abc import Callable

@@ -108,7 +108,9 @@ def staging(parent: Path, name: str) -> Iterator[Path]:
     """
     path = parent / f"{name}-{machine_name()}-{os.getpid()}-{time.time_ns()}"
     try:
-        path.mkdir()  # not before: on a slow disk a stop falls into it, and the folder is made all the same
+        # not before: on a slow disk a stop falls into it, and the folder is made all the same; with parents, as an
+        # equal run that ends may have removed the empty folder around it
+        path.mkdir(parents=True)
         yield path
     finally:
         try:

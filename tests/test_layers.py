@@ -154,6 +154,16 @@ def test_no_module_imports_itself_by_way_of_others():
     graphlib.TopologicalSorter(imported).prepare()  # raises CycleError, which names the circle
 
 
+def test_what_is_compiled_takes_no_constant_of_another_module():
+    """Numba keeps the result with the constants of that day, and looks at the function's own file alone."""
+    graph = grimp.build_graph("facegen", "regress", "track", "room", cache_dir=None)
+    maker = "facegen.compilation"
+    compiling = graph.find_modules_that_directly_import(maker)
+    assert "facegen.rigs.lid_closing" in compiling
+    others = {module: graph.find_modules_directly_imported_by(module) - {maker} for module in compiling}
+    assert not {module: sorted(names) for module, names in others.items() if names}
+
+
 PROGRAMS = ("facegen", "regress", "track", "room", "benchmarks", "blender_assets", "docs", "tests")
 
 

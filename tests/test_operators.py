@@ -100,7 +100,7 @@ PDF_LIMITS = {
 
 def test_the_limits_of_pdfs_are_in_their_table_as_the_page_has_them():
     page = (ROOT / "docs/room-operators.md").read_text(encoding="utf-8")
-    code = (ROOT / "web/room/paper.ts").read_text(encoding="utf-8")
+    code = (ROOT / "web/room/sharing/paper.ts").read_text(encoding="utf-8")
     held = dict(re.findall(r"^const ((?:MOST|PATIENCE)_\w+) = (.+);", code, re.MULTILINE))
     told = {name: said for said, name in re.findall(r"\| ([^|]+) \| `((?:MOST|PATIENCE)_\w+)` \|", page)}
     assert held == {name: value for name, (value, _) in PDF_LIMITS.items()}

@@ -17,7 +17,14 @@ const ROOT = values.out ?? dirname(HERE);
 /** By folder of the repository: what is bundled for it. */
 const PAGES = {
   "track/page/static": ["track/page.ts", "track/page.css", "track/index.html"],
-  "room/server/static": ["room/room.ts", "room/face.worker.ts", "room/paper.ts", "room/frames.worklet.js", "room/room.css", "room/room.html"],
+  "room/server/static": [
+    "room/room.ts",
+    "room/face/face.worker.ts",
+    "room/sharing/paper.ts",
+    "room/voice/frames.worklet.js",
+    "room/room.css",
+    "room/room.html",
+  ],
 };
 
 /** Files that are served as they are, and where they come from. */

@@ -73,27 +73,45 @@ public class FaceWeights : MonoBehaviour
         return -1;
     }
 
-    // Call it with a face at rest, mouth closed and eyes open. One with a missing point, or with all in one place, as
-    // some detectors write a lost face, is not taken: with it all weights would be NaN.
+    // Call it with a face at rest, mouth closed and eyes open. One with a missing point is not taken, nor points that
+    // are no face: all in one place or on one line, in a mirror (left and right exchanged), or with y upward.
     public bool Calibrate(float[] points)
     {
-        if (points.Length != 136 || System.Array.Exists(points, value => !float.IsFinite(value)))
-            return false;
-        if (Extent(points, 0) <= 0 || Extent(points, 1) <= 0)
+        if (points.Length != 136 || System.Array.Exists(points, value => !float.IsFinite(value)) || !IsFace(points))
             return false;
         neutral = (float[])points.Clone();
         return true;
     }
 
-    static float Extent(float[] points, int axis)
+    // Once round the face: along the jaw from the player's right ear, and back along the brows.
+    static readonly int[] Outline =
     {
-        float least = points[axis], most = least;
-        for (int i = axis; i < points.Length; i += 2)
+        0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 26, 25, 24, 23, 22, 21, 20, 19, 18, 17,
+    };
+
+    static bool IsFace(float[] points)
+    {
+        double middleX = 0, middleY = 0, xx = 0, xy = 0, yy = 0, extent = 0, area = 0;
+        for (int i = 0; i < 136; i += 2)
         {
-            least = Mathf.Min(least, points[i]);
-            most = Mathf.Max(most, points[i]);
+            middleX += points[i] / 68.0;
+            middleY += points[i + 1] / 68.0;
         }
-        return most - least;
+        for (int i = 0; i < 136; i += 2)
+        {
+            double x = points[i] - middleX, y = points[i + 1] - middleY;
+            extent = System.Math.Max(extent, System.Math.Max(System.Math.Abs(x), System.Math.Abs(y)));
+            xx += x * x;
+            xy += x * y;
+            yy += y * y;
+        }
+        for (int i = 0; i < Outline.Length; i++)
+        {
+            int one = 2 * Outline[i], next = 2 * Outline[(i + 1) % Outline.Length];
+            area += (points[one] - middleX) * (points[next + 1] - middleY);
+            area -= (points[one + 1] - middleY) * (points[next] - middleX);
+        }
+        return xx * yy - xy * xy > .001 * (xx + yy) * (xx + yy) && area <= .8 * extent * extent;
     }
 
     // points: 136 numbers, x and y of each landmark, y down.

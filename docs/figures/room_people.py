@@ -23,7 +23,7 @@ PEOPLE = {
 """Options of `facegen rig export anny --body`. Own avatars are never dyed, so each wears what nobody else does."""
 
 WINE, SAND, PURPLE, BLUE = 1, 3, 4, 9
-"""Of the colours of clothes in `web/room/colours.ts`: those that differ from rooms, gown and shirt."""
+"""Of the colours of clothes in `web/room/figure/colours.ts`: those that differ from rooms, gown and shirt."""
 
 
 def person(name: str) -> bytes:

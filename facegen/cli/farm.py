@@ -84,7 +84,7 @@ def submit(
     """
     from facegen import farm
     from facegen.spec import load_spec
-    from facegen.store import resolve
+    from facegen.store import check_folder_is_free, resolve
 
     if engine not in farm.ENGINES:
         raise InputError(f"--engine {engine}: must be one of {', '.join(farm.ENGINES)}")
@@ -100,16 +100,25 @@ def submit(
         sbatch_args=tuple(sbatch_args),
         path_map=tuple(farm.parse_path_pair(text) for text in maps),
     )
+    chosen = farm.parse_steps(steps)
+    check_folder_is_free(dataset)  # the jobs of another dataset say nothing of this one
+    request = farm.plan_request(dataset, samples, steps=chosen)
+    left = request.remaining
+    if chosen == ("generate",) and not (left.shards or left.samples):
+        say("facegen: nothing to submit; all that is asked for is there, has a task, or failed for good")
+        print_table({"job": None, "tasks": 0}, as_json=as_json)
+        return
     job = farm.prepare(
         dataset,
-        farm.remaining(dataset, samples),
+        left,
         engine=engine,
-        steps=farm.parse_steps(steps),
+        steps=chosen,
         samples=samples,
         resources=resources,
         chunk=chunk,
         packed=packed and str(packed),
         model=model and str(model),
+        at_work=request.at_work,
     )
     _hand_over(dataset, job, dry_run=dry_run, wait=wait, as_json=as_json)
 
@@ -146,9 +155,8 @@ def resume(
         print_table({"job": None, "tasks": 0}, as_json=as_json)
         return
     job = farm.prepare_resumption(opened, resumption, chunk=chunk)
-    if retry_quarantined and not dry_run:
-        farm.forget_quarantined(opened, resumption)
-    _hand_over(opened, job, dry_run=dry_run, wait=wait, as_json=as_json)
+    retried = resumption.state.quarantined if retry_quarantined else ()
+    _hand_over(opened, job, retried=retried, dry_run=dry_run, wait=wait, as_json=as_json)
 
 
 @farm_app.command()
@@ -213,7 +221,9 @@ def cancel(dataset: Folder) -> None:
     print(f"cancelled: {', '.join(names) or 'nothing, no job is running'}")
 
 
-def _hand_over(dataset: "Dataset", job: "Job", *, dry_run: bool, wait: bool, as_json: bool) -> None:
+def _hand_over(
+    dataset: "Dataset", job: "Job", *, retried: tuple[str, ...] = (), dry_run: bool, wait: bool, as_json: bool
+) -> None:
     """Submit a job and print what became of it; after a dry run print what would be submitted."""
     from facegen import farm
 
@@ -228,7 +238,7 @@ def _hand_over(dataset: "Dataset", job: "Job", *, dry_run: bool, wait: bool, as_
             print(f"==> {job.folder / name} <==\n{text}")
         print("\n".join(engine.instructions(job)))
         return
-    submission = farm.submit(job)
+    submission = farm.submit(job, retried=retried)
     if not wait:
         table |= {"ids": submission.ids}
         commands = [] if submission.ids else engine.instructions(job)
@@ -245,7 +255,7 @@ def _show_state(dataset: "Dataset", *, as_json: bool) -> int:
     from facegen import farm
 
     state = farm.farm_state(dataset)
-    table = {name: value for name, value in asdict(state).items() if name != "busy"}
+    table = {name: value for name, value in asdict(state).items() if name not in ("busy", "at_work")}
     if not as_json:
         unknown = {name: "unknown" for name in ("running", "waiting", "seconds_left") if table[name] is None}
         seconds_left = {} if state.seconds_left is None else {"seconds_left": f"{state.seconds_left:.0f}"}

@@ -83,7 +83,10 @@ def add(
         say(f"Left out of the head: {', '.join(added.left_out)}.")
     if added.rig.missing:
         missing = added.rig.missing
-        say(f"{len(missing)} of 52 blendshapes are missing and stay zero: {', '.join(missing)}.")
+        say(
+            f"{len(missing)} of 52 blendshapes are missing: {', '.join(missing)}. Datasets leave their weights at "
+            "0, but for eyeLook*, which eyeballs show."
+        )
     if (added.rig.part == Part.LASHES).any():
         say(
             "The head's lashes are not rendered: strands grow along strips of quads, and glTF has triangles alone."

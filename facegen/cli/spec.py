@@ -18,12 +18,15 @@ def check(spec: Annotated[Path, typer.Argument(help="A spec, for example dataset
 
     Example: facegen spec check datasets/default.toml
     """
+    from facegen.sessions import check_layout
     from facegen.spec import load_spec, sample_ranges
     from facegen.store import resolve
 
     checked = load_spec(spec)
-    plan = resolve(checked, Path()).plan
+    dataset = resolve(checked, Path())
+    plan = dataset.plan
     rendered = len(sample_ranges(checked.render.samples, total=plan.samples, where=f"{spec}: render.samples"))
+    check_layout(checked, dataset.rigs, dataset.headset, rendered=rendered)
     people, samples = counted(checked.people, "person", "people"), counted(plan.samples, "sample")
     print(f"{spec}: good; {people}, {samples}, {rendered} of them rendered")
 

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from facegen.errors import InputError
+from facegen.errors import InputError, Unanswered
 from facegen.farm.commands import generate_command, later_command, rigs_line
 from facegen.farm.engine import Activity
 from facegen.farm.job import Job, Submission
@@ -240,9 +240,15 @@ class OpenJD:
         command = [_openjd(), "summary", str(template), "-p", f"file://{values}"]
         if shutil.which(command[0]) is None:
             return
-        read = subprocess.run(
-            command, capture_output=True, text=True, errors="replace", timeout=_CHECK_TIMEOUT_S
-        )
+        try:
+            read = subprocess.run(
+                command, capture_output=True, text=True, errors="replace", timeout=_CHECK_TIMEOUT_S
+            )
+        except subprocess.TimeoutExpired:
+            raise Unanswered(
+                f"{command[0]}: has not read the job within {_CHECK_TIMEOUT_S} s; nothing was submitted, so repeat the "
+                "command"
+            ) from None
         if read.returncode:
             words = " ".join(f"{read.stdout} {read.stderr}".replace(str(template), "the template").split())
             raise InputError(f"OpenJD does not take the job: {words}")

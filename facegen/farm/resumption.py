@@ -1,11 +1,10 @@
 """Resumes a dataset: the missing things that no engine is at become a new job, as the newest was submitted."""
 
-import shutil
 from dataclasses import dataclass
 
-from facegen.errors import InputError, Unanswered
+from facegen.errors import InputError
 from facegen.farm.job import STEPS, Job, asked_jobs
-from facegen.farm.state import FarmState, farm_state
+from facegen.farm.state import FarmState, answered_state
 from facegen.farm.submission import Remaining, prepare, remaining
 from facegen.spec import format_ranges
 from facegen.store import Dataset
@@ -57,12 +56,7 @@ def plan_resumption(dataset: Dataset, *, retry_quarantined: bool = False) -> Res
             f"{dataset.folder.path}: was never submitted to a farm; begin with: facegen farm submit"
         )
     newest = list(jobs.values())[-1]
-    state = farm_state(dataset)
-    if state.unknown:
-        raise Unanswered(
-            f"{dataset.folder.path}: {newest.engine} does not say what it does with {', '.join(state.unknown)}, so "
-            "tasks might be submitted twice; resume when it answers"
-        )
+    state = answered_state(dataset)
     # an older job may have been asked for more than the newest
     requests = list(dict.fromkeys((job.samples, job.shards) for job in jobs.values()))
     left = [
@@ -122,9 +116,3 @@ def prepare_resumption(dataset: Dataset, resumption: Resumption, *, chunk: int |
             raise
         # it speaks of options, and was given none
         raise InputError(f"{dataset.folder.path / 'farm' / newest.name / 'job.json'}: {error}") from error
-
-
-def forget_quarantined(dataset: Dataset, resumption: Resumption) -> None:
-    """Remove the records of what failed three times, so that it is tried again."""
-    for name in resumption.state.quarantined:
-        shutil.rmtree(dataset.folder.quarantine(name), ignore_errors=True)

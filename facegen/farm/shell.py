@@ -4,7 +4,7 @@ import os
 import shutil
 import subprocess
 
-from facegen.errors import InputError
+from facegen.errors import InputError, Unanswered
 from facegen.farm.resources import Resources
 
 _READ_TIMEOUT_S = 60
@@ -17,13 +17,20 @@ def check_shell(text: str, *, what: str) -> None:
     ------
     InputError
         With bash's own words; ``what`` names the script.
+    Unanswered
+        If bash is not done in time.
     """
     bash = shutil.which("bash", path=os.environ.get("PATH") or os.defpath)
     if bash is None:
         return  # no machine to submit from, but its scripts can be looked at
-    read = subprocess.run(
-        [bash, "--norc", "-n"], input=text.encode(), capture_output=True, timeout=_READ_TIMEOUT_S
-    )
+    try:
+        read = subprocess.run(
+            [bash, "--norc", "-n"], input=text.encode(), capture_output=True, timeout=_READ_TIMEOUT_S
+        )
+    except subprocess.TimeoutExpired:
+        raise Unanswered(
+            f"{what}: bash has not read it within {_READ_TIMEOUT_S} s; nothing was submitted, so repeat the command"
+        ) from None
     # of a document without an end bash only warns, and takes all that follows for part of it
     if read.returncode or read.stderr:
         said = read.stderr.decode(errors="replace").strip().splitlines()

@@ -14,6 +14,7 @@ from facegen.errors import FacegenError, InputError, Unanswered
 from facegen.farm.commands import chunk_lines, generate_command, later_command, rigs_line
 from facegen.farm.engine import Activity
 from facegen.farm.job import Job, Submission
+from facegen.farm.sbatch_arguments import check_arguments, is_need
 from facegen.farm.shell import check_setup, check_shell
 
 NOTICE_S = 60
@@ -27,8 +28,8 @@ MAX_RESTARTS = 20
 
 _ASK_TIMEOUT_S = 60
 
-_OURS = {"--job-name": "-J", "--array": "-a", "--clusters": "-M"}
-"""Options of sbatch by which tasks are found again, and their short forms."""
+_NUMBER = re.compile(r"([0-9]{1,20})(;.*)?")
+"""What ``sbatch --parsable`` answers; sites let it say more before."""
 
 _AT_WORK = ("RUNNING", "COMPLETING", "CONFIGURING")
 """States in which squeue lists a task that has its processors; all others wait for some."""
@@ -85,7 +86,7 @@ def sbatch_script(job: Job, step: str) -> str:
     """
     resources, on_farm = job.resources, job.resources.on_farm
     check_setup(resources)
-    _check_arguments(resources.sbatch_args)
+    check_arguments(resources.sbatch_args)
     folder, out = on_farm(job.folder), on_farm(job.out)
     if step == "generate":
         command = shlex.join(generate_command(job, spec=f"{out}/spec.toml", out=out, what=())) + " $what"
@@ -106,18 +107,6 @@ def sbatch_script(job: Job, step: str) -> str:
         restarts=MAX_RESTARTS,
         finish=finish,
     )
-
-
-def _check_arguments(arguments: tuple[str, ...]) -> None:
-    """See that tasks keep the names and numbers by which they are asked for; sbatch takes shortened names as well."""
-    for argument in arguments:
-        name = argument.partition("=")[0]
-        for long, short in _OURS.items():
-            if (len(name) > 2 and long.startswith(name)) or argument[:2] == short:
-                raise InputError(
-                    f"--sbatch-arg={argument}: tasks of another name, array or cluster ({long}) would not be found "
-                    "again and be submitted twice; leave it out"
-                )
 
 
 def _directives(job: Job, step: str, folder: str) -> list[str]:
@@ -168,9 +157,9 @@ class Slurm:
         """Write the sbatch commands, with names for the numbers that Slurm will give."""
         commands, before = [], None
         for step in self._steps(job):
-            command = shlex.join(self._sbatch(job, step, None))
-            if before is not None:
-                command = command.replace(" --parsable", f" --parsable --dependency=afterok:${before}", 1)
+            words = self._sbatch(job, step, f"${before}" if before else None)
+            # a shell is to put the number there, which a quoted word would keep from it
+            command = " ".join(word if word == _need(f"${before}") else shlex.quote(word) for word in words)
             commands.append(f"{step}=$({command})")
             before = step
         return commands
@@ -189,7 +178,7 @@ class Slurm:
         before = None
         try:
             for step in self._steps(job):
-                before = _run(self._sbatch(job, step, before)).strip().split(";")[0]
+                before = _number(_run(self._sbatch(job, step, before)))
                 ids[step] = before
         except FacegenError:
             if ids:
@@ -225,12 +214,26 @@ class Slurm:
         return [step for step in job.steps if step != "generate" or job.chunks]
 
     def _sbatch(self, job: Job, step: str, before: str | None) -> list[str]:
+        # sbatch goes by the last of two: what the user's job is to wait for holds for its first step, and so for all
+        given = [each for each in job.resources.sbatch_args if not (before and is_need(each))]
+        after = [_need(before)] if before else []
         # without --kill-on-invalid-dep a step whose need has failed waits for ever
-        after = [f"--dependency=afterok:{before}"] if before else []
         return [
-            *("sbatch", "--parsable", *after, "--kill-on-invalid-dep=yes", *job.resources.sbatch_args),
+            *("sbatch", "--parsable", *after, "--kill-on-invalid-dep=yes", *given),
             str(job.folder / f"{step}.sh"),
         ]
+
+
+def _need(number: str) -> str:
+    return f"--dependency=afterok:{number}"
+
+
+def _number(answer: str) -> str:
+    """The job's number in what sbatch said."""
+    numbers = [match[1] for line in answer.splitlines() if (match := _NUMBER.fullmatch(line.strip()))]
+    if not numbers:
+        raise Unanswered(f"sbatch: gave no job's number, but {answer.strip()[:200]!r}")
+    return numbers[-1]
 
 
 def read_squeue(listing: str, submission: Submission) -> Activity:
@@ -238,9 +241,11 @@ def read_squeue(listing: str, submission: Submission) -> Activity:
     steps = {number: step for step, number in submission.ids.items()}
     running, waiting, later_steps, reasons = set(), set(), {}, Counter()
     for line in listing.splitlines():
-        number, index, state, reason = line.split("|", 3)
-        if number not in steps:
+        number, *details = line.split("|", 3)
+        # of another folder, or what a site lets squeue say besides
+        if number not in steps or len(details) != 3:
             continue
+        index, state, reason = details
         if re.fullmatch(r"\d+", index):
             (running if state in _AT_WORK else waiting).add(int(index))
         else:

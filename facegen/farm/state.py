@@ -3,7 +3,7 @@
 from collections import Counter
 from dataclasses import dataclass
 
-from facegen.errors import ExitCode
+from facegen.errors import ExitCode, Unanswered
 from facegen.farm.engine import Activity
 from facegen.farm.job import Job, asked_jobs
 from facegen.farm.submission import activities
@@ -45,6 +45,8 @@ class FarmState:
         Later steps.
     busy
         Missing things that an engine has a task for.
+    at_work
+        Later steps that an engine has: each one's job and name.
     unknown
         Jobs of which their engine was asked, and did not say whether it is at them.
     """
@@ -61,6 +63,7 @@ class FarmState:
     seconds_left: float | None
     steps: tuple[StepState, ...]
     busy: frozenset[Task]
+    at_work: tuple[tuple[Job, str], ...]
     unknown: tuple[str, ...]
 
     @property
@@ -110,9 +113,28 @@ def farm_state(dataset: Dataset) -> FarmState:
             if index < len(job.chunks)
             for task in _tasks(dataset, job, index)
         ),
+        at_work=tuple((job, step) for job, activity in known for step in activity.steps),
         # an engine that gave numbers can be asked for them
         unknown=tuple(job.name for job, given, activity in asked if given.ids and activity is None),
     )
+
+
+def answered_state(dataset: Dataset) -> FarmState:
+    """`farm_state`, where every engine that was asked has answered.
+
+    Raises
+    ------
+    Unanswered
+        If an engine does not say whether it is at tasks that it has.
+    """
+    state = farm_state(dataset)
+    if state.unknown:
+        engines = {job.name: job.engine for job in asked_jobs(dataset.folder)}
+        raise Unanswered(
+            f"{dataset.folder.path}: {engines[state.unknown[-1]]} does not say what it does with "
+            f"{', '.join(state.unknown)}, so tasks might be submitted twice; repeat the command when it answers"
+        )
+    return state
 
 
 def _step_state(job: Job, step: str, activity: Activity | None) -> str:

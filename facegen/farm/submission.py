@@ -1,8 +1,10 @@
 """Submits a job: cuts what is missing into tasks, writes them as scripts or a bundle, hands them to the engine."""
 
+import contextlib
 import os
 import shutil
 import tempfile
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,10 +13,11 @@ from facegen.farm.chunks import cut_chunks
 from facegen.farm.engine import Activity, Engine
 from facegen.farm.engines import ENGINES
 from facegen.farm.job import Job, Resources, Submission, list_jobs, new_job_name, write_record
+from facegen.farm.places import check_packed, refuse_rivals
 from facegen.files import output_errors
 from facegen.rigs import rigs_folder
 from facegen.spec import format_ranges
-from facegen.store import Dataset, DatasetFolder, begin
+from facegen.store import Dataset, DatasetFolder, begin, staging
 from facegen.work import Task, plan_work, wanted_tasks
 
 
@@ -55,6 +58,7 @@ def prepare(
     chunk: int | None = None,
     packed: str | None = None,
     model: str | None = None,
+    at_work: tuple[tuple[Job, str], ...] = (),
 ) -> Job:
     """Write a job's record and its scripts or bundle below ``OUT/farm``; nothing is handed over.
 
@@ -76,12 +80,14 @@ def prepare(
         Samples a task.
     packed, model
         Folders for ``pack`` and ``train``; without, beside the dataset.
+    at_work
+        Later steps of other jobs that engines have.
 
     Raises
     ------
     InputError
-        If ``chunk`` makes too many tasks, the folder holds another dataset, or the engine or a shell would not take
-        what would be written.
+        If ``chunk`` makes too many tasks, a step of another job writes into the same folder, the pack's holds another
+        pack, the folder holds another dataset, or the engine or a shell would not take what would be written.
     OutputError
         If the folder cannot be written.
     """
@@ -105,10 +111,13 @@ def prepare(
         whole=_is_whole(dataset, samples, shards),
         rigs=str(rigs_folder().resolve()),
     )
+    refuse_rivals(draft, at_work)
     with tempfile.TemporaryDirectory() as folder:  # what is refused leaves nothing in the dataset
         _write_files(draft, Path(folder))
         _engine(draft).check(Path(folder))
     begin(dataset)
+    if "pack" in steps:
+        check_packed(dataset, draft)
     job = replace(draft, name=new_job_name(dataset.folder))
     with output_errors(job.folder):
         (job.folder / "logs").mkdir(exist_ok=True)
@@ -140,8 +149,16 @@ def _engine(job: Job) -> Engine:
     return ENGINES[job.engine]
 
 
-def submit(job: Job) -> Submission:
+def submit(job: Job, *, retried: tuple[str, ...] = ()) -> Submission:
     """Hand a prepared job to its engine, and write down under which numbers.
+
+    Parameters
+    ----------
+    job
+        From `prepare`.
+    retried
+        Names of what failed three times and is to be tried again: the tasks would leave it out by its records, which
+        go, unless the engine does not take the job.
 
     Raises
     ------
@@ -151,7 +168,8 @@ def submit(job: Job) -> Submission:
         If the engine may have taken it; what runs then finds its folder.
     """
     try:
-        submission = _engine(job).submit(job)
+        with _put_aside(DatasetFolder(Path(job.out)), retried):
+            submission = _engine(job).submit(job)
     except Unanswered as error:
         raise Unanswered(
             f"{error}; {job.name} may be queued all the same, so {job.folder} is kept: cancel what the queue has of "
@@ -162,6 +180,26 @@ def submit(job: Job) -> Submission:
         raise
     write_record(job.folder / "submission.json", submission)
     return submission
+
+
+@contextlib.contextmanager
+def _put_aside(folder: DatasetFolder, names: tuple[str, ...]) -> Iterator[None]:
+    """Remove records of the quarantine for good at the end, or put them back where a job certainly was not taken."""
+    if not names:
+        yield
+        return
+    with staging(folder, "retried") as stage:
+        for name in names:
+            with contextlib.suppress(FileNotFoundError):
+                os.rename(folder.quarantine(name), stage / name)
+        try:
+            yield
+        except Unanswered:
+            raise
+        except BaseException:
+            for record in stage.iterdir():
+                os.rename(record, folder.quarantine(record.name))
+            raise
 
 
 def cancel(folder: DatasetFolder) -> list[str]:

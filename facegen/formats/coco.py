@@ -65,7 +65,10 @@ class LabelledImage:
 def write_coco(
     path: Path, images: Callable[[], Iterable[LabelledImage]], *, info: dict, licence: str
 ) -> None:
-    """Write a file in constant memory; ``images`` is called twice and must give the same both times."""
+    """Write a file in constant memory; ``images`` is called twice and must give the same both times.
+
+    Text is ASCII, as JSON escapes the rest: ``pycocotools`` opens files in the locale's encoding.
+    """
     with open(path, "w", encoding="utf-8", newline="\n") as file:
         head = {
             "info": info,
@@ -80,11 +83,11 @@ def write_coco(
                 }
             ],
         }
-        file.write(json.dumps(head, ensure_ascii=False)[:-1])
+        file.write(json.dumps(head)[:-1])
         for name, entries in (("images", _images(images())), ("annotations", _annotations(images()))):
             file.write(f', "{name}": [')
             for index, entry in enumerate(entries):
-                file.write(("\n" if index == 0 else ",\n") + json.dumps(entry, ensure_ascii=False))
+                file.write(("\n" if index == 0 else ",\n") + json.dumps(entry))
             file.write("]")
         file.write("}\n")
 

@@ -1,6 +1,6 @@
 """Datasets in the forms that training programs read."""
 
-from facegen.packing.pack import PACK_FORMATS, Packed, PackPlan, plan_pack, write_pack
+from facegen.packing.pack import PACK_FORMATS, Packed, PackPlan, check_pack, plan_pack, write_pack
 from facegen.packing.plan import Options, PackFile, PackFormat
 
 __all__ = [
@@ -10,6 +10,7 @@ __all__ = [
     "PackFormat",
     "PackPlan",
     "Packed",
+    "check_pack",
     "plan_pack",
     "write_pack",
 ]

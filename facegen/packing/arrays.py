@@ -200,4 +200,5 @@ ARRAYS = PackFormat(
     shard_size=0,
     parts=array_parts,
     write=write_part,
+    version=2,  # the first told nothing of the rows' cameras
 )

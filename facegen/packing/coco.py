@@ -48,4 +48,5 @@ COCO = PackFormat(
     shard_size=0,
     parts=view_parts,
     write=write_view,
+    version=2,  # boxes of the first began half a pixel off, and its text was not ASCII alone
 )

@@ -9,8 +9,6 @@ from pathlib import Path
 
 from facegen.documents import load_json
 from facegen.errors import InputError
-from facegen.files import output_errors
-from facegen.formats.litter import is_litter
 from facegen.packing.arrays import ARRAYS
 from facegen.packing.card import cards
 from facegen.packing.coco import COCO
@@ -18,6 +16,7 @@ from facegen.packing.keypoints import KEYPOINTS, chosen_columns
 from facegen.packing.livelink import LIVELINK
 from facegen.packing.openface import OPENFACE
 from facegen.packing.parquet import PARQUET
+from facegen.packing.place import begin_place, check_place
 from facegen.packing.plan import Options, PackFile, PackFormat, chosen_samples
 from facegen.packing.rendered import chosen_views
 from facegen.packing.webdataset import WEBDATASET
@@ -29,7 +28,6 @@ from facegen.store import (
     commit_file,
     licences,
     read_description,
-    read_json,
     recording_of,
     staging,
     sweep,
@@ -47,7 +45,7 @@ PACK_FORMATS: dict[str, PackFormat] = {
 }
 """Every format there is; a new one is a module and a line here."""
 
-ABOUT, INDEX = "pack.json", "index.json"
+INDEX = "index.json"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,9 +134,38 @@ def write_pack(
             (folder.path / "tmp").rmdir()
 
 
+def check_pack(dataset: Dataset, out: str | Path, *, samples: Sequence[int], chosen: str | None) -> None:
+    """Refuse a folder in which a pack of samples that are not all there yet could not begin; writes nothing.
+
+    Parameters
+    ----------
+    dataset
+        Whose folder has begun.
+    out
+        Folder of the pack.
+    samples
+        Numbers of those whose pictures will be there.
+    chosen
+        ``--samples`` of the command that packs; without, it packs all that is there.
+
+    Raises
+    ------
+    InputError
+        If the folder holds another pack, or anything else.
+    """
+    name = "webdataset" if len(samples) or dataset.folder.rendered() else "keypoints"
+    numbers: Sequence[int] = samples
+    if chosen is None:
+        numbers = sorted({*samples, *dataset.folder.rendered()})
+        numbers = numbers if name == "webdataset" else range(dataset.plan.samples)
+    options = _checked(PACK_FORMATS[name], name, Options(samples=chosen))
+    plan = PackPlan(dataset=dataset, name=name, options=options, samples=numbers, parts=())
+    check_place(DatasetFolder(Path(out)), _description(plan))
+
+
 def _write(plan: PackPlan, folder: DatasetFolder, on_progress: Callable[[int], None]) -> Packed:
     form = PACK_FORMATS[plan.name]
-    _begin(folder, _description(plan))
+    begin_place(folder, _description(plan))
     sweep(folder)
     listed = _listed(folder.path)
     entries, written = [], 0
@@ -183,31 +210,12 @@ def _description(plan: PackPlan) -> dict:
     options = {key: list(v) if isinstance(v, tuple) else v for key, v in asdict(plan.options).items()}
     return {
         "format": plan.name,
+        "version": PACK_FORMATS[plan.name].version,
         "licence": described["licence"],
         "options": options,
         "samples": format_ranges(plan.samples),
         "dataset": described,
     }
-
-
-def _begin(folder: DatasetFolder, description: dict) -> None:
-    about = folder.path / ABOUT
-    # looked into first: an equal run beside this one may begin the pack meanwhile
-    with output_errors(folder.path):
-        full = folder.path.is_dir() and any(
-            entry.name != "tmp" and not is_litter(entry.name) for entry in folder.path.iterdir()
-        )
-    if about.is_file():
-        if read_json(about) != description:
-            raise InputError(f"{folder.path}: holds another pack; choose another folder, or delete this one")
-        return
-    if full:
-        raise InputError(f"{folder.path}: is not empty and holds no pack; choose another folder")
-    with output_errors(folder.path):
-        folder.path.mkdir(parents=True, exist_ok=True)
-    with staging(folder, "begin") as stage:
-        write_json(stage / ABOUT, description)
-        commit_file(stage / ABOUT, about)
 
 
 def _listed(folder: Path) -> dict[str, dict] | None:

@@ -67,6 +67,8 @@ class PackFormat:
         Cuts sample numbers into files.
     write
         Writes one file to a path; equal input gives equal bytes.
+    version
+        Of the bytes: a change of what equal input gives raises it, so that no pack is half old and half new.
     carded
         Whether a card and Croissant metadata go along, for files that are named after their split.
     """
@@ -77,6 +79,7 @@ class PackFormat:
     shard_size: int
     parts: Callable[[Dataset, Sequence[int], Options], list[PackFile]]
     write: Callable[[Dataset, PackFile, Options, Path], None]
+    version: int = 1
     carded: bool = False
 
 

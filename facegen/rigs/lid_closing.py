@@ -5,7 +5,6 @@ from typing import NamedTuple
 import numpy as np
 
 from facegen.compilation import compiled
-from facegen.rigs.eyes import CORNEA_RADIUS_M, GLOBE_AHEAD_M, IRIS_RADIUS_M
 
 OVERLAP_M = 0.9e-3
 """How far the upper margin lies below the lower one in the closed eye, mid-lid; 0 to 2 mm are allowed."""
@@ -35,7 +34,8 @@ class Lids(NamedTuple):
     to 0 away from it; ``skin`` (M,) whether a vertex can be seen; ``travel`` (U,) of the blink; ``overlap`` (U,);
     weights' indices; the margins ``upper`` (U,) and ``lower`` (L,) as positions among the M; ``partner`` (L, U)
     interpolates the lower margin at the columns; ``flip`` turns x so that it grows from the inner to the outer
-    canthus; ``lining`` (C,) positions of those that line the lids next to their margins.
+    canthus; ``lining`` (C,) positions of those that line the lids next to their margins; ``globe_ahead``,
+    ``cornea_radius`` and ``iris_radius`` the eye's (`facegen.rigs.eyes`), metres.
     """
 
     vertices: np.ndarray
@@ -55,6 +55,9 @@ class Lids(NamedTuple):
     partner: np.ndarray
     flip: float
     lining: np.ndarray
+    globe_ahead: float
+    cornea_radius: float
+    iris_radius: float
 
 
 @compiled
@@ -94,7 +97,9 @@ def close_eye(
                 lid[i, axis] = at
                 opened[i, axis] = at - down * lids.closing[0, i, axis] - squint * lids.closing[1, i, axis]
             length = _length(opened, i)
-            thickness[i] = length - _support(opened, i, length, radius[face], cornea_offset[face], AHEAD)[0]
+            thickness[i] = (
+                length - _support(lids, opened, i, length, radius[face], cornea_offset[face], AHEAD)[0]
+            )
         measure_gap(lids, opened, gap)
         measure_gap(lids, lid, scale)
         for k in range(columns):
@@ -151,13 +156,20 @@ def _length(lid: np.ndarray, i: int) -> float:
 
 @compiled
 def _support(
-    lid: np.ndarray, i: int, length: float, radius: float, cornea_offset: float, gaze: np.ndarray
+    lids: Lids,
+    lid: np.ndarray,
+    i: int,
+    length: float,
+    radius: float,
+    cornea_offset: float,
+    gaze: np.ndarray,
 ) -> tuple[float, float]:
     """The eye's surface (`facegen.rigs.eyes.lid_support_radius`) under vertex i, and the cosine to the axis there."""
     cosine = (lid[i, 0] * gaze[0] + lid[i, 1] * gaze[1] + lid[i, 2] * gaze[2]) / length
     sine_square = 1.0 - cosine * cosine
-    sclera = cosine * GLOBE_AHEAD_M + np.sqrt(radius * radius - GLOBE_AHEAD_M * GLOBE_AHEAD_M * sine_square)
-    root = CORNEA_RADIUS_M * CORNEA_RADIUS_M - cornea_offset * cornea_offset * sine_square
+    ahead, cornea = lids.globe_ahead, lids.cornea_radius
+    sclera = cosine * ahead + np.sqrt(radius * radius - ahead * ahead * sine_square)
+    root = cornea * cornea - cornea_offset * cornea_offset * sine_square
     if root > 0.0:
         return max(sclera, cosine * cornea_offset + np.sqrt(root)), cosine
     return sclera, cosine
@@ -171,10 +183,10 @@ def _rest_on_eye(
 
     Near the cornea linings come to lie between the eye and the skin.
     """
-    near_cornea = np.cos(np.arcsin(IRIS_RADIUS_M / radius) + LINING_REACH_M / radius)
+    near_cornea = np.cos(np.arcsin(lids.iris_radius / radius) + LINING_REACH_M / radius)
     for i in range(len(lid)):
         length = _length(lid, i)
-        support, cosine = _support(lid, i, length, radius, cornea_offset, gaze)
+        support, cosine = _support(lids, lid, i, length, radius, cornea_offset, gaze)
         if lids.skin[i]:
             target = max(length, support + min(max(thickness[i], THICKNESS_M[0]), THICKNESS_M[1]))
         elif cosine > near_cornea:
@@ -237,7 +249,7 @@ def _draw_linings(
         y = lid[i, 1] + closed * (goal - lid[i, 1])
         level = np.sqrt(max(length * length - y * y, 0.0) / (length * length - lid[i, 1] * lid[i, 1]))
         lid[i, 0], lid[i, 1], lid[i, 2] = level * lid[i, 0], y, level * lid[i, 2]
-        support, _ = _support(lid, i, length, radius, cornea_offset, gaze)
+        support, _ = _support(lids, lid, i, length, radius, cornea_offset, gaze)
         target = length + closed * (support + CURTAIN_M - length)
         for axis in range(3):
             lid[i, axis] *= target / length

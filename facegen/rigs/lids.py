@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from facegen.conventions import BLENDSHAPE_INDEX, Part
-from facegen.rigs.eyes import cornea_center_offset
+from facegen.rigs.eyes import CORNEA_RADIUS_M, GLOBE_AHEAD_M, IRIS_RADIUS_M, cornea_center_offset
 from facegen.rigs.rig import Rig
 
 if TYPE_CHECKING:
@@ -153,6 +153,9 @@ def _prepared(rig: Rig, side: int, name: str, flip: float, cage_only: bool) -> "
         ),
         flip=flip,
         lining=_first_linings(rig, vertices, skin),
+        globe_ahead=GLOBE_AHEAD_M,
+        cornea_radius=CORNEA_RADIUS_M,
+        iris_radius=IRIS_RADIUS_M,
     )
     mean_lid = rig.vertices[vertices] - rig.eye_center[side]
     blinking = np.empty(len(upper))

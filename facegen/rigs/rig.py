@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from facegen.conventions import BLENDSHAPES, EYE_LOOK_INDICES
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Rig:
@@ -57,7 +59,8 @@ class Rig:
     licence, source, version
         Where the shapes come from and under which terms pictures of them may be used.
     missing
-        Blendshapes that the source does not have; their displacements are zero.
+        Blendshapes that the source does not have; their displacements are zero. Datasets leave the weights of those
+        that nothing shows (`unseen`) at zero.
     sha256
         Of the file the rig was read from; empty for a rig that was not saved yet.
     """
@@ -93,3 +96,8 @@ class Rig:
     def components(self) -> int:
         """Number K of identity components."""
         return len(self.identity)
+
+    @property
+    def unseen(self) -> list[int]:
+        """Indices of missing blendshapes that nothing shows: eyeballs turn by eyeLook, where no lid follows too."""
+        return [i for i, name in enumerate(BLENDSHAPES) if name in self.missing and i not in EYE_LOOK_INDICES]

@@ -34,7 +34,7 @@ class Samples:
     identity
         (n, K) coefficients.
     weights
-        (n, 52) blendshape weights.
+        (n, 52) blendshape weights; those of shapes that the rig lacks are 0 (`facegen.rigs.Rig.unseen`).
     gaze
         (n, 2, 3) unit optical axes in the head frame, subject's left eye first.
     component
@@ -93,6 +93,7 @@ def draw_samples(plan: Plan, rig: Rig, block: int) -> Samples:
         frames = draw_played_frames(plan, block, positions)
     else:
         frames = draw_single_frames(plan, rig, block, positions, people.identity)
+    frames.weights[:, rig.unseen] = 0.0  # behind the draws, so that all others stay what they are
     noise = draw_detector_noise(
         spec.landmarks, spec.seed, block, person=positions.person, rotation=frames.rotation
     )

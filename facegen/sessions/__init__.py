@@ -1,6 +1,6 @@
 """Sessions: the headset, looks and things that a person wears, drawn once, and the scene of each of their samples."""
 
-from facegen.sessions.drawn_headsets import drawn_headset, sees_enough
+from facegen.sessions.drawn_headsets import check_layout, drawn_headset, sees_enough
 from facegen.sessions.layouts import Layout, LayoutCamera, check_base, draw_layout, headset_of
 from facegen.sessions.sample_scene import SampleScene, build_sample_scene, draw_sample_scene
 from facegen.sessions.session import Session, draw_session, draw_unit_of_session
@@ -12,6 +12,7 @@ __all__ = [
     "Session",
     "build_sample_scene",
     "check_base",
+    "check_layout",
     "draw_layout",
     "draw_sample_scene",
     "draw_session",

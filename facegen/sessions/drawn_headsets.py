@@ -1,5 +1,6 @@
 """Draws the headset that a person wears, and draws again where it would stand in the face or see too little of it."""
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -15,10 +16,12 @@ from facegen.rigs import Rig, evaluate
 from facegen.scene.assembly import headset_views
 from facegen.scene.housing import headset_meshes
 from facegen.sessions.layouts import draw_layout, headset_of
-from facegen.spec import Spec
+from facegen.spec import LayoutRanges, Spec
 
 MOST_DRAWS = 200
 """Of one headset: of the default ranges six draws in seven can be built and see enough."""
+TRIED_WORN = 10
+"""Draws that can be worn tell their share well enough: 1 in 20 is all that a million people need."""
 CLEAR_M = 4e-3
 """Cameras and LEDs stand at least so far in front of the mean face's skin; people's faces differ by as much."""
 BESIDE_M = 8e-3
@@ -30,6 +33,7 @@ SEEN = {
     "mouth": (tuple(LANDMARK_GROUPS["outer_lip"]), 11),
 }
 """Landmarks that a camera is to see, and how many of the mean face's it must: all of an eye's, most of the lips'."""
+CURE = "widen eye_width_mm and mouth_width_mm, or move the cameras"
 
 
 @lru_cache(maxsize=8)  # a person's samples stand side by side
@@ -46,16 +50,52 @@ def drawn_headset(spec: Spec, rig: Rig, base: Headset, person: int) -> Headset:
     number = person % spec.layout.count if spec.layout.count else person
     rng = stream(spec.seed, "layout", number)
     for _ in range(MOST_DRAWS):
-        try:
-            headset = headset_of(draw_layout(rng, spec.layout), base)
-        except ValidationError:  # what a headset's file may not say either
-            continue
-        if sees_enough(headset, rig):
+        if (headset := _draw_worn(rng, spec.layout, rig, base)) is not None:
             return headset
     raise InputError(
         f"layout: none of {MOST_DRAWS} draws is a headset that stands clear of the face and sees both eyes and the "
-        "mouth; widen eye_width_mm and mouth_width_mm, or move the cameras"
+        f"mouth; {CURE}"
     )
+
+
+def check_layout(spec: Spec, rigs: Sequence[Rig], base: Headset, *, rendered: int) -> None:
+    """Refuse ranges that would leave a person without a headset; they cost a second or two, unworn ones twenty.
+
+    Parameters
+    ----------
+    spec, rigs, base
+        The spec, its rigs, and what its headsets are drawn on.
+    rendered
+        How many samples are rendered: their people alone wear headsets.
+
+    Raises
+    ------
+    InputError
+        Where of so many people at least one is expected to get none; says which share of the draws can be worn.
+    """
+    if spec.layout is None:
+        return
+    people = max(1, min(spec.people, spec.layout.count or spec.people, rendered))
+    for rig in rigs:
+        rng, worn, drawn = stream(spec.seed, "layout tried", 0), 0, 0
+        while worn < TRIED_WORN and drawn < MOST_DRAWS:
+            worn += _draw_worn(rng, spec.layout, rig, base) is not None
+            drawn += 1
+        if people * (1.0 - worn / drawn) ** MOST_DRAWS >= 1.0:
+            raise InputError(
+                f"layout: {worn} of {drawn} drawn headsets stand clear of the face of rig {rig.name!r} and see both "
+                f"eyes and the mouth, so of {people} {'person' if people == 1 else 'people'} at least one is expected "
+                f"to get none in {MOST_DRAWS} draws; {CURE}"
+            )
+
+
+def _draw_worn(rng: np.random.Generator, ranges: LayoutRanges, rig: Rig, base: Headset) -> Headset | None:
+    """One headset of the ranges, or None where it cannot be built or sees too little."""
+    try:
+        headset = headset_of(draw_layout(rng, ranges), base)
+    except ValidationError:  # what a headset's file may not say either
+        return None
+    return headset if sees_enough(headset, rig) else None
 
 
 def sees_enough(headset: Headset, rig: Rig) -> bool:

@@ -13,6 +13,7 @@ from facegen.errors import InputError
 from facegen.files import output_errors
 from facegen.formats.litter import is_litter
 from facegen.headsets import headset_path
+from facegen.sessions import check_layout
 from facegen.spec import LABEL_VERSION, spec_table
 from facegen.store.dataset import Dataset, otherwise_built, rigs_of
 from facegen.store.description import FORMAT, read_description
@@ -104,7 +105,7 @@ def begin(dataset: Dataset) -> None:
     Raises
     ------
     InputError
-        If the folder holds a dataset of another spec, or other files.
+        If the folder holds a dataset of another spec, or other files, or a layout leaves a person without a headset.
     OutputError
         If the folder cannot be written.
     """
@@ -114,6 +115,7 @@ def begin(dataset: Dataset) -> None:
         _renew(dataset)
         _write_cards(dataset)
         return
+    check_layout(dataset.spec, dataset.rigs, dataset.headset, rendered=len(dataset.samples_to_render()))
     with output_errors(folder.path):
         folder.path.mkdir(parents=True, exist_ok=True)
     # before anything lies there: it imports modules, and a stop during imports ends the program at once

@@ -122,6 +122,7 @@ def _heads(described: Mapping) -> str:
     """A sentence for each rig."""
     return "\n".join(
         f"The heads {_of_whom(rig)}come from the rig {rig['name']!r}, {rig['version']}: {rig['source']}."
+        + (f" It lacks shapes: {', '.join(rig['missing'])}." if "missing" in rig else "")
         for rig in _rigs(described)
     )
 

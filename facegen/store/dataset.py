@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from facegen.conventions import SHARD_ROWS
+from facegen.conventions import BLENDSHAPES, SHARD_ROWS
 from facegen.errors import InputError
 from facegen.headsets import Headset
 from facegen.rigs import Rig, rigs_folder
@@ -181,7 +181,11 @@ class Dataset:
 def rigs_of(dataset: Dataset) -> dict:
     """What ``dataset.json`` says of rigs: the key ``rig``, or where there are several, ``rigs`` with their shares."""
     about = [
-        {"name": rig.name, **{key: getattr(rig, key) for key in ("sha256", "version", "source", "licence")}}
+        {
+            "name": rig.name,
+            **{key: getattr(rig, key) for key in ("sha256", "version", "source", "licence")},
+            **({"missing": list(rig.missing)} if rig.missing else {}),
+        }
         for rig in dataset.rigs
     ]
     if len(about) == 1:
@@ -191,7 +195,7 @@ def rigs_of(dataset: Dataset) -> dict:
 
 
 def otherwise_built(dataset: Dataset, described: Mapping) -> str:
-    """A sentence where a rig of ``dataset.json`` is of this version but of other bytes; else nothing.
+    """A sentence where a rig of ``dataset.json`` is of this version but of other bytes, or was shown otherwise.
 
     Products of matrices end in other last bits on other kinds of processors, and the rig's hash is part of a dataset's.
     Of that rig's values ``dataset.json`` has none, so there is nothing to compare but the hash.
@@ -206,5 +210,11 @@ def otherwise_built(dataset: Dataset, described: Mapping) -> str:
                 f"its rig {rig.name!r} is of the same version as the one here, but was built on another kind of "
                 f"processor or from other sources, and has other bytes; copy {files} from where the dataset was made "
                 f"into {rigs_folder()}, or let FACEGEN_RIGS name their folder"
+            )
+        if rig.unseen and then.get("sha256") == rig.sha256 and "missing" not in then:
+            return (
+                f"its labels hold weights of shapes that its rig {rig.name!r} lacks "
+                f"({', '.join(BLENDSHAPES[i] for i in rig.unseen)}), which this version of facegen leaves at 0; make "
+                "the dataset anew, or read it with the facegen that made it"
             )
     return ""

@@ -45,6 +45,8 @@ def resolve(spec: Spec, out: str | Path) -> Dataset:
         **({"rig": rigs[0].sha256} if len(rigs) == 1 else {f"rig {rig.name}": rig.sha256 for rig in rigs}),
         "headset": _content_sha256(_headset_content(headset)),
     }
+    # datasets of before held weights of shapes that their rig lacks
+    assets |= {f"unseen {rig.name}": str(rig.unseen) for rig in rigs if rig.unseen}
     if plan.recording is not None:
         assets["recording"] = hashlib.sha256(np.ascontiguousarray(plan.recording).tobytes()).hexdigest()
     return Dataset(

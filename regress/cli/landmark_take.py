@@ -98,8 +98,8 @@ def predict_file(
             f"{landmarks}: no times are given, so weights are not filtered; if this is a film, --fps says how many "
             "frames a second it has"
         )
-    if fps is None and (rate := frames_a_second(main.time_s)) > FILM_FPS[1]:
-        say(f"{landmarks}: its times are of {rate:.0f} frames a second; --fps says what the camera's were")
+    if fps is None:
+        _say_odd_rate(str(landmarks), main)
     timed = output.needs_times or needs_times(table_format, gltf)
     frames = sound_rows(frames, needs_times=timed, strict=strict)
     if neutral is None and len(frames.labels) > 1 and model.calibrated is not None:
@@ -125,6 +125,18 @@ def predict_file(
     if trust is not None:
         write_whole(trust, confidence_csv(prediction))
     write_prediction(prediction, table_format, out=out, gltf=gltf)
+
+
+def _say_odd_rate(source: str, take: Frames) -> None:
+    """Tell of times that cannot be a camera's: of more frames a second than one has, or a film's of milliseconds."""
+    rate = frames_a_second(take.time_s)
+    if rate > FILM_FPS[1]:
+        say(f"{source}: its times are of {rate:.0f} frames a second; --fps says what the camera's were")
+    elif 0 < rate < FILM_FPS[0] and is_steady(take.points):
+        say(
+            f"{source}: its times are of {rate:.2g} frames a second, which is no film, so weights are not filtered; if "
+            "they are milliseconds, call the column timestamp_ms, or give --fps"
+        )
 
 
 def is_film(time_s: np.ndarray | None) -> bool:

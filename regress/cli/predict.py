@@ -36,9 +36,10 @@ def predict(
         list[Path],
         typer.Argument(
             metavar="[MODEL] INPUT",
-            help="Landmarks: .pts files and folders, .npy, OpenFace or py-feat .csv, dlib .xml, COCO, OpenPose or "
-            "mmpose .json, CK+ folders, or - for lines of 136 numbers on standard input; .npy, .csv and lines may hold "
-            "the two irises behind the 68 points. Before them the model, as --model takes it.",
+            help="Landmarks: .pts files and folders, .npy and .npz, .csv of OpenFace, py-feat or any other with "
+            "columns as x_0, x0 or 0_x, dlib .xml, COCO, OpenPose, mmpose or MediaPipe .json, CK+ folders, or - for "
+            "lines of 136 numbers on standard input. Points are 68, maybe with two irises behind them, or 98, 133, "
+            "136, 468 or 478 in the orders of their datasets. Before them the model, as --model takes it.",
         ),
     ],
     chosen: ModelOption = None,

@@ -17,6 +17,7 @@ from regress.errors import InputError
 from regress.exporters.answering import Answering, runs_of
 from regress.exporters.formula import Formula
 from regress.exporters.halves import Halves, halves_of
+from regress.exporters.outline import FLAT, MOST_AREA, OUTLINE
 
 LINE_WIDTH = 110
 C_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -31,6 +32,10 @@ _OF_CALLS = 2048
 """Bytes of stack of the functions that measure a face, and take noise off, while an answer is computed."""
 
 _MOST_OF_SHORT = 65_535
+
+_UNITS = """
+ *     x and y have one unit: multiply shares of a picture by its width and height first. A face in a mirror, or with
+ *     y upward, is not told from others: its weights are wrong."""
 
 _PREDICT = "void ${name}_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
 _ALONE = "static void alone_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
@@ -61,6 +66,8 @@ def export_c(formula: Formula, name: str) -> dict[str, bytes]:
         )
     words = {
         "name": name,
+        "own": f"{name}_",
+        "units": "" if formula.as_paper else _UNITS,
         "GUARD": name.upper(),
         "title": f"{name}: {LANDMARK_COUNT} facial landmarks to {len(BLENDSHAPES)} avatar weights.",
         "licence": comment(formula.about["licence"]),
@@ -75,6 +82,7 @@ def export_c(formula: Formula, name: str) -> dict[str, bytes]:
         functions, player = "predict.h", ""
     else:
         words["neutral_count"] = formula.calibrated.measures.count
+        words |= {"outline": _wrapped(map(str, OUTLINE)), "flat": f"{FLAT:g}", "turned": f"{MOST_AREA:g}"}
         words["stack_kb"] = max(map(_stack_kb, (formula.alone, formula.calibrated)))
         sets = [
             _set_of(formula.alone, _ALONE, words, of="alone_"),

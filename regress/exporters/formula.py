@@ -22,7 +22,7 @@ known: from the features of step 2 those of the neutral face, measured alike, ar
 of zeros is none.
 
 A face with a missing point gives NaN throughout, as in ``Model.predict``; a neutral face with one is refused where a
-language can, and gives NaN elsewhere.
+language can, and gives NaN elsewhere, and so does one that is no face (`outline`).
 """
 
 from collections.abc import Sequence
@@ -61,6 +61,11 @@ class Formula:
     alone: Answering
     calibrated: Answering | None
     about: dict[str, str]
+
+    @property
+    def as_paper(self) -> bool:
+        """Whether the files are the paper's, whose bytes stay as they were."""
+        return self.calibrated is None and self.about["recipe"] == "paper"
 
 
 def formula_of(model: Model) -> Formula:

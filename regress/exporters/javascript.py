@@ -18,8 +18,14 @@ from regress.exporters.answering import Answering, runs_of
 from regress.exporters.c_source import comment
 from regress.exporters.formula import Formula
 from regress.exporters.halves import Halves, halves_of
+from regress.exporters.outline import FLAT, MOST_AREA, OUTLINE
 
 LINE_WIDTH = 110
+
+_UNITS = """
+ *
+ * x and y have one unit: multiply shares of a picture by its width and height first. A face in a mirror, or with y
+ * upward, is not told from others: its weights are wrong."""
 
 _PREDICT = "export function predict(points, weights = new Float32Array(names.length))"
 _DENOISED = "signal.length + noiseCount"
@@ -34,6 +40,7 @@ def export_javascript(formula: Formula, name: str) -> dict[str, bytes]:
     """
     words = {
         "name": name,
+        "units": "" if formula.as_paper else _UNITS,
         "title": comment(f"{name}: {LANDMARK_COUNT} facial landmarks to {len(BLENDSHAPES)} avatar weights."),
         "licence": comment(formula.about["licence"]),
         "dataset": comment(f"{formula.about['dataset']} (SHA-256 {formula.about['dataset_sha256']})"),
@@ -44,7 +51,7 @@ def export_javascript(formula: Formula, name: str) -> dict[str, bytes]:
     if formula.calibrated is None:
         tables, functions = _set_of(formula.alone, _PREDICT)
         words["usage"] = _filled("usage_predict.js", words)
-        words["networks"] = _filled("predict.js", {"tables": tables, "functions": functions})
+        words["networks"] = _filled("predict.js", words | {"tables": tables, "functions": functions})
         words["players"] = ""
     else:
         sets = {
@@ -55,7 +62,8 @@ def export_javascript(formula: Formula, name: str) -> dict[str, bytes]:
         }
         scopes = {key: indent("".join(texts), "  ").rstrip("\n") for key, texts in sets.items()}
         words["usage"] = _filled("usage_players.js", words)
-        words["networks"] = _filled("players.js", scopes)
+        limits = {"outline": _listed(OUTLINE.tolist()), "flat": f"{FLAT:g}", "turned": f"{MOST_AREA:g}"}
+        words["networks"] = _filled("players.js", scopes | limits)
         words["players"] = _filled("players.d.ts", words)
     return {f"{name}{suffix}": _filled(f"file{suffix}", words).encode() for suffix in (".js", ".d.ts")}
 

@@ -16,6 +16,7 @@ from onnx import TensorProto, helper
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
 from regress.exporters.formula import Formula
 from regress.exporters.onnx_nodes import Nodes, append_features, append_networks
+from regress.exporters.onnx_outline import append_face_check
 
 OPSET = 15
 IR_VERSION = 8
@@ -35,7 +36,7 @@ OPERATORS = frozenset(
         "Tanh",
     }
     | {"Transpose"}
-    | {"Abs", "Equal", "Flatten", "Where"}
+    | {"Abs", "Equal", "Flatten", "ReduceMax", "Where"}
 )
 """What a graph may contain: all are in the tables of onnxruntime-web (WASM, WebGPU) and Unity Sentis."""
 
@@ -67,7 +68,7 @@ def build_graph(formula: Formula) -> onnx.ModelProto:
         Input ``points`` float32 (n, 68, 2), output ``weights`` float32 (n, 52) in the order of the metadata's
         ``names``. Its metadata also holds the dataset's hash, the recipe and the licence. Where the model compares
         faces with a neutral face, input ``neutral`` float32 (n or 1, 68, 2) as well: a row of zeros is none; one
-        with a missing point gives NaN.
+        with a missing point gives NaN, as does one on one line, in a mirror or with y upward.
     """
     whole, alone, calibrated = Nodes(), formula.alone, formula.calibrated
     about = {"names": list(BLENDSHAPES), **formula.about}
@@ -80,7 +81,10 @@ def build_graph(formula: Formula) -> onnx.ModelProto:
     measured = whole.part("calibrated_")
     frame = append_features(measured, calibrated.measures, "points", calibrated.feature_mean)
     rest = whole.part("neutral_")
-    neutral = append_features(rest, calibrated.measures, "neutral", None)
+    measured_neutral = append_features(rest, calibrated.measures, "neutral", None)
+    check = whole.part("check_")
+    is_face = check.full(append_face_check(check, "neutral"))
+    neutral = rest.node("Mul", [measured_neutral, is_face], "features_of_face")
     differences = measured.node("Sub", [frame, rest.full(neutral)], "differences")
     append_networks(measured, calibrated, differences)
     part.node("ReduceMean", [part.node("Abs", ["neutral"], "sizes")], "row_sizes", axes=[2], keepdims=0)

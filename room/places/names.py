@@ -1,6 +1,6 @@
 """Says what the names of a place's nodes mean, and what is missing among them.
 
-The page reads the same names (``web/room/layout.ts``), and docs/room-places.md tells whoever makes a place.
+The page reads the same names (``web/room/scene/layout.ts``), and docs/room-places.md tells whoever makes a place.
 """
 
 from typing import Any

@@ -7,7 +7,7 @@ NUMBERS = 65536
 """Of people: two bytes before each state."""
 
 COLOURS = 12
-"""Of people's clothes (``CLOTHES`` in ``web/room/colours.ts``): pages take them by the number."""
+"""Of people's clothes (``CLOTHES`` in ``web/room/figure/colours.ts``): pages take them by the number."""
 
 
 def free_number(wish: int, *, taken: Container[int], first: int) -> int:

@@ -107,6 +107,17 @@ def test_the_unforeseen_is_one_line_and_its_traceback_in_a_file(tmp_path, body):
     assert Path(match[1]).stat().st_mode & 0o077 == 0
 
 
+def test_what_is_to_be_reported_holds_no_password(tmp_path):
+    """Neither among the words that the program was called with nor where a library's message repeats one of them."""
+    word = "mouth=rtsp://me:pa=ss@camera.local/live?password=word"
+    ended = called("raise RuntimeError(sys.argv[-1])", "make", "--out", word, tmpdir=tmp_path)
+    assert ended.returncode == 70
+    (details,) = tmp_path.glob("masks-fault-*.txt")
+    for told in (details.read_text(), ended.stderr):
+        assert "camera.local" in told
+        assert not re.search("pa=ss|word=", told)
+
+
 def test_a_fault_without_a_place_for_details_says_where_it_was(tmp_path):
     ended = called("{}['key']", preexec_fn=_no_files_larger_than_nothing)
     assert ended.returncode == 70

@@ -87,7 +87,8 @@ def test_an_array_of_four_tasks_and_the_steps_after_it_run(slurm, submit):
     assert outcomes(out) == ["done"] * 4
     assert no_leftovers(out)
     assert len(list((out / "farm" / "job-001" / "logs").glob("generate-*.out"))) == 4
-    assert "nothing to submit" not in facegen("farm", "resume", out, environ=slurm.environ)
+    again = facegen("farm", "resume", out, "--json", environ=slurm.environ)
+    assert json.loads(again) == {"job": None, "tasks": 0}
 
 
 def test_kills_in_mid_render_are_made_good(slurm, submit):

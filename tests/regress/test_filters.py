@@ -401,6 +401,27 @@ def test_a_film_without_times_is_told_to_lack_them(
     assert ("no times are given, so weights are not filtered; if this is a film, --fps" in said) is told
 
 
+@pytest.mark.parametrize(
+    ("step", "steady", "options", "told"),
+    [
+        (33.3, True, (), True),
+        (33.3, True, ("--fps", 30), False),
+        (0.0333, True, (), False),
+        (10, False, (), False),  # photographs
+    ],
+)
+def test_a_film_whose_times_are_milliseconds_is_told(
+    step: float, steady: bool, options: tuple, told: bool, run, quick_model_folder, tmp_path
+):
+    faces = FACES - FACES.mean(axis=1, keepdims=True) + 100 if steady else FACES
+    names = ["time", *(f"{axis}{index}" for index in range(68) for axis in "xy")]
+    rows = [",".join(map(repr, [number * step, *face.ravel().tolist()])) for number, face in enumerate(faces)]
+    (tmp_path / "take.csv").write_text("\n".join([",".join(names), *rows]) + "\n")
+    code, _, said = run("predict", quick_model_folder, tmp_path / "take.csv", *options)
+    assert code == 0
+    assert ("of 0.03 frames a second, which is no film, so weights are not filtered" in said) is told
+
+
 def test_help_states_the_lags(run):
     for command in (("predict",), ("headset", "predict")):
         out = run(*command, "--help")[1]

@@ -55,6 +55,30 @@ def test_results_of_coco_are_a_list(tmp_path: Path):
     assert read.numbers.tolist() == [0, 1, 1]
 
 
+@pytest.mark.parametrize(
+    ("scores", "seen"),
+    [
+        (np.full(68, 0.01), False),
+        (np.linspace(0, 0.58, 68), False),  # the body's own scores do not count
+        (np.linspace(0.05, 0.6, 68), True),
+        (np.full(68, 1.0), True),
+        (np.full(68, np.nan), False),
+    ],
+)
+def test_a_result_of_low_scores_is_no_face(scores: np.ndarray, seen: bool, tmp_path: Path):
+    """As mmpose's own files have it; of a labelled face every point counts, hidden ones too."""
+    triples = np.column_stack([_body(FACES[0]), np.ones(133)])
+    triples[23:91, 2] = scores
+    read = _read(
+        tmp_path / "a.json",
+        [
+            {"image_id": 1, "keypoints": triples.ravel().tolist()},
+            {"image_id": 2, "keypoints": _triples(_body(FACES[1]))},
+        ],
+    )
+    assert read.usable.tolist() == [seen, True]
+
+
 def _instance(points: np.ndarray, score: float = 0.8) -> dict:
     return {"keypoints": points.tolist(), "keypoint_scores": [score] * len(points), "bbox": [[0, 0, 9, 9]]}
 

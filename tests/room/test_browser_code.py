@@ -24,7 +24,7 @@ def test_in_typescript(test: str, tmp_path: Path):
     environment = {
         **os.environ,
         "VECTORS": str(ROOT / "room" / "protocol" / "vectors.json"),
-        "FRAMES": str(WEB / "room" / "frames.worklet.js"),
+        "FRAMES": str(WEB / "room" / "voice" / "frames.worklet.js"),
         "PLACES": str(ROOT / "room" / "server" / "static" / "places"),
     }
     done = subprocess.run(

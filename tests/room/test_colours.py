@@ -7,7 +7,7 @@ from room.protocol.texts import Join
 from room.state import Meeting, identity
 from room.state.numbers import COLOURS
 
-PAGE = Path(__file__).resolve().parents[2] / "web/room/colours.ts"
+PAGE = Path(__file__).resolve().parents[2] / "web/room/figure/colours.ts"
 SECRETS = [f"{number:022}" for number in range(40)]
 
 

@@ -15,6 +15,7 @@ from tests.room.test_sharing import PICTURE, WISH
 pytestmark = [needs_chromium, pytest.mark.slow]
 
 STATE = "document.querySelector('#state').textContent"
+ASKED = "Remove Ben? Their tab stays out; by the link they come in as somebody new, unless you lock the room."
 
 CAMERA = """void (() => {
   const { presence } = meeting, { move } = presence, line = document.querySelector('#state');
@@ -255,6 +256,28 @@ def test_a_camera_that_is_pulled_out_is_told_and_hides_no_word_of_the_microphone
     asyncio.run(run())
 
 
+def test_a_raised_hand_and_a_voice_that_does_not_come_are_told_in_words():
+    words = "document.querySelector('#people').textContent"
+
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'moderator')}"
+            async with browser.open(link) as tab:
+                await come_in(tab, "Chair")
+                ben = await place.guest(name="Ben")  # no browser, so nothing ever answers its call
+                await ben.say(kind="voice", open=True)
+                await ben.move(animation=5)
+                await tab.until(f"{STATE} === 'Ben raises a hand.'")
+                await tab.until(f"{words}.includes('Benraises a hand')")
+                await ben.move(animation=0, sequence=1, time_ms=40)
+                await tab.until(f"!{words}.includes('raises a hand')")
+                await tab.until(f"{words}.includes('Benvoice does not arrive')")
+                await tab.ask("void meeting.tell('')")
+                await tab.until(f"{STATE}.startsWith('No voice arrives from Ben: ')")
+
+    asyncio.run(run())
+
+
 def test_nobody_is_removed_by_one_click():
     remove = "[...document.querySelectorAll('#people button')].find((it) => it.ariaLabel === 'remove: Ben').click()"
     answers = "void (globalThis.confirm = (text) => (globalThis.asked = text, %s))"
@@ -268,7 +291,7 @@ def test_nobody_is_removed_by_one_click():
                 await tab.until("meeting.known.size === 2")
                 await tab.ask(answers % "false")
                 await tab.ask(remove)
-                assert await tab.ask("asked") == "Remove Ben from the room for good?"
+                assert await tab.ask("asked") == ASKED
                 await place.guest(name="Cem")
                 await tab.until("meeting.known.size === 3")
                 await tab.ask(answers % "true")

@@ -1,4 +1,4 @@
-"""An avatar that is dropped on one page is worn on the other; a broken one is told to its owner alone."""
+"""An avatar that is dropped on one page is worn on the other; a broken one harms nobody but its owner."""
 
 import asyncio
 import base64
@@ -72,3 +72,43 @@ def test_what_one_drops_the_others_see(tmp_path):
     assert "m high" in found["tiny"]
     assert "me.glb" in found["taken"]
     assert found["complaints"] == []
+
+
+BREAKS = """void (() => {
+  const broken = () => { throw new Error('broken'); };
+  const { avatar } = %s.figure;
+  %s
+})()"""
+RENDERER = "meeting.stage.view.renderer"
+
+
+async def broken(folder: Path) -> dict[str, object]:
+    """What is left of a picture after one of two own avatars breaks: as it takes a face, and as it is drawn."""
+    async with meet(folder, "Ada", "Cid", "Ben") as (_, (ada, cid, ben)):  # pictures are of who came last
+        omar, nora = ((STATIC / "avatars" / f"{name}.glb").read_bytes() for name in ("omar", "nora"))
+        found: dict[str, object] = {}
+        await drop(cid, omar, "cid.glb")
+        ways = ("avatar.update = broken", "avatar.model.traverse((node) => (node.onBeforeShadow = broken))")
+        for number, (content, way) in enumerate(zip((omar, nora), ways, strict=True)):
+            await drop(ada, content, "ada.glb")
+            await ben.until(f"{wears('avatar')} && {other('Cid')}.figure?.avatar.name === 'avatar'")
+            await ben.ask(f"void (meeting.stage.drawing = {json.dumps(number == 1)})")
+            await ben.ask(BREAKS % (other("Ada"), way))
+            await ben.until(wears("nora"))
+            await ada.ask("document.querySelector('#bring').click()")
+            await ben.until(f"{other('Ada')}.person.own === ''")
+        before = await ben.ask(f"{RENDERER}.info.render.frame")
+        await ben.until(f"{RENDERER}.info.render.frame > {before}")
+        await ben.ask("void (meeting.stage.drawing = false)")
+        found["cid"] = await ben.ask(f"{other('Cid')}.figure.avatar.name")
+        found["target"] = await ben.ask(f"{RENDERER}.getRenderTarget()")
+        found["scissors"] = await ben.ask(f"{RENDERER}.getScissorTest()")
+        found["said"] = [line for line in ben.complaints if "broken" in line]
+        return found
+
+
+def test_of_an_avatar_that_cannot_be_drawn_the_rooms_stands_in_and_others_keep_theirs(tmp_path):
+    found = asyncio.run(broken(tmp_path))
+    assert found["cid"] == "avatar"
+    assert (found["target"], found["scissors"]) == (None, False)
+    assert len(found["said"]) >= 2

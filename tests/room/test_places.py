@@ -158,6 +158,6 @@ def test_each_room_gets_its_place(tmp_path):
 
 
 def test_names_are_those_that_the_page_reads():
-    source = (Path(__file__).parents[2] / "web" / "room" / "layout.ts").read_text()
+    source = (Path(__file__).parents[2] / "web" / "room" / "scene" / "layout.ts").read_text()
     for word in ("place", "seat", "block", "walk"):
         assert f"named({json.dumps(word)})" in source

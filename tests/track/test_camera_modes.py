@@ -88,6 +88,13 @@ def test_commas_of_a_name_are_its_own(name: str):
     assert split_mode(name) == (name, CameraMode())
 
 
+@pytest.mark.parametrize("password", ["a,gain=secret", "a,gain=1", "a,ss=secret,fps=no"])
+def test_a_password_that_looks_like_a_mode_is_none(password: str):
+    address = f"rtsp://me:{password}@camera.local/live"
+    assert split_mode(address) == (address, CameraMode())
+    assert split_mode(f"{address},fps=60") == (address, CameraMode(fps=60))
+
+
 def test_a_file_whose_name_ends_like_a_mode_is_one(tmp_path):
     (tmp_path / "take,fps=30.mp4").touch()
     (tmp_path / "takes,fps=30").mkdir()

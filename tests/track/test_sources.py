@@ -15,6 +15,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from facegen.redaction import without_secrets
 from regress.runtime.inputs import Fault
 from tests.lying_film import lying_film
 from tests.track.faces import film_of
@@ -24,7 +25,7 @@ from tests.track.pictures import folder_of, numbered, read_all
 from tests.track.virtual import noise, told
 from track.errors import CameraError
 from track.sources import SOURCES, Pace, open_capture, open_source
-from track.sources.addresses import SCHEMES, is_address, is_local, without_secrets
+from track.sources.addresses import SCHEMES, is_address, is_local
 from track.sources.lines import Lines
 from track.sources.webcams import WebcamSource, list_webcams
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from facegen.redaction import without_secrets
 from track.errors import InputError
 
 if TYPE_CHECKING:
@@ -68,8 +69,9 @@ def camera_texts(cameras: Sequence[str], *, headset: bool) -> dict[str, str]:
     for written in cameras:
         match = _NAMED.fullmatch(written)
         if match is None:
+            shown = without_secrets(written)
             raise InputError(
-                f"--camera {written}: a headset's camera needs its name before it, as in left_eye={written}"
+                f"--camera {shown}: a headset's camera needs its name before it, as in left_eye={shown}"
             )
         if match[1] in texts:
             raise InputError(f"--camera {match[1]} is given twice")

@@ -4,7 +4,6 @@ import contextlib
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -118,14 +117,11 @@ def open_sinks(
         replaces = target.is_file and target.path.is_file()
         sinks.append(open_sink(target, say))
         opened.callback(sinks[-1].close)
-        if target.is_file:
-            closing.push(partial(_tell_whole, target, say))
+        closing.callback(_tell_kept, sinks[-1], say)
         say(f"sending {target.title}{', in place of the file that is there' * replaces}")
     return sinks
 
 
-def _tell_whole(
-    target: "Target", say: Callable[[str], None], error: type[BaseException] | None, *_: object
-) -> None:
-    if error is None and target.path.is_file():
-        say(f"recorded {target.title}")
+def _tell_kept(sink: "Sink", say: Callable[[str], None]) -> None:
+    if sink.kept:
+        say(f"recorded {sink.title}")

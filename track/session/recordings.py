@@ -1,8 +1,9 @@
-"""Begins and ends the recordings that the page asks for, beside all other sinks."""
+"""Begins and ends the recordings that the page asks for, and ends those that cannot be written: all else goes on."""
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
+from facegen.errors import FacegenError
 from track.errors import OutputError
 from track.sinks.sink import Sink
 
@@ -18,6 +19,11 @@ class Recordings:
         Opens one; None where none can be made.
     say
         Told what a person should know, a sentence each.
+
+    Attributes
+    ----------
+    lost
+        Why the first sink that was asked for from the beginning takes nothing any more; None where all do.
     """
 
     def __init__(
@@ -28,6 +34,7 @@ class Recordings:
     ) -> None:
         self._sinks, self._new_recording, self._say = sinks, new_recording, say
         self._recording: Sink | None = None
+        self.lost: OutputError | None = None
         self._finishing = ThreadPoolExecutor(max_workers=1, thread_name_prefix="recording")
 
     @property
@@ -49,28 +56,31 @@ class Recordings:
         except OutputError as error:
             self._say(str(error))
 
-    def give_up(self, sink: Sink, error: OutputError) -> bool:
-        """End the recording of the page that is under way, if it is this sink, as no more can be written to it."""
-        if sink is not self._recording:
-            return False
-        self._recording = None
+    def give_up(self, sink: Sink, error: OutputError) -> None:
+        """End a recording to which no more can be written; what it has is kept, and all others go on."""
+        own = sink is self._recording
+        if own:
+            self._recording = None
+        else:
+            self.lost = self.lost or error
         self._sinks.remove(sink)
-        self._say(str(error))
-        self._finishing.submit(self._finish, sink, told=True)
-        return True
+        self._say(f"{sink.title} ends here, and the rest goes on: {error}")
+        self._finishing.submit(self._finish, sink, told=str(error), own=own)
 
     def close(self) -> None:
         """Wait until what has ended is written."""
         self._finishing.shutdown()
 
-    def _finish(self, recording: Sink, *, told: bool = False) -> None:
+    def _finish(self, recording: Sink, *, told: str = "", own: bool = True) -> None:
         """Give a recording its name, in another thread: a disk takes a frame's time and more.
 
-        ``told`` says that its fault is known already.
+        ``told`` is the fault that is known already; of others than the page's ``own`` the command says that they are
+        there.
         """
         try:
             recording.close()
-            self._say(f"recorded {recording.title}")
-        except OutputError as error:
-            if not told:
+            if own:
+                self._say(f"recorded {recording.title}")
+        except FacegenError as error:
+            if str(error) != told:
                 self._say(str(error))

@@ -138,6 +138,8 @@ class Session:
             if sample is None:
                 break
             self._show(self.answer(sample, pictures.now_s if self._timed else None), screen)
+            if self._recordings.lost is not None and not self.sinks and screen is None:
+                break  # nobody is left to take an answer
         self._show(self.finish(), screen)
 
     def _show(self, answers: Sequence[Sample], screen: Screen | None) -> None:
@@ -173,8 +175,7 @@ class Session:
         try:
             sink.send(answer)
         except OutputError as error:
-            if not self._recordings.give_up(sink, error):
-                raise
+            self._recordings.give_up(sink, error)
 
     def moment(self, sample: Sample) -> Moment:
         """What the page shows of an answer."""
@@ -224,13 +225,24 @@ class Session:
             return person.step(sample, unseen=self.pipeline.unseen_eyes(sample))
 
     def close(self) -> None:
-        """Let sinks and stages go: recordings are written whole, each whether or not another one can be."""
+        """Let sinks and stages go: recordings are written whole, each whether or not another one can be.
+
+        Raises
+        ------
+        OutputError
+            Where a recording that was asked for from the beginning could not be written, or not to its end.
+        """
         with ExitStack() as closing:
+            closing.callback(self._raise_lost)
             closing.callback(self.pipeline.close)
             closing.callback(self._recordings.close)
             self._recordings.record(False)  # told where it is, as it may have got another name
             for sink in self.sinks:
                 closing.callback(sink.close)
+
+    def _raise_lost(self) -> None:
+        if self._recordings.lost is not None:
+            raise self._recordings.lost
 
     def _obey(self) -> None:
         while True:

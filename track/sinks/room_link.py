@@ -68,7 +68,7 @@ def read_link(target: Target) -> RoomLink:
     if file is not None and link.scheme != "https":
         raise InputError("--to room: cert= is for a link that begins with https://; leave it out")
     return RoomLink(
-        title=f"room to {link.netloc}{link.path}",
+        title=target.title,
         address=f"{link.scheme}://{link.netloc}{link.path}/socket",
         key=keys[1],
         secret=keys[2],

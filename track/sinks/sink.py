@@ -20,9 +20,12 @@ class Sink:
     ----------
     title
         What a person calls it: ``"vmc to 127.0.0.1:39539"``.
+    kept
+        Whether a recording of it is there, known behind `close`.
     """
 
     title: str
+    kept: bool = False
 
     def send(self, sample: Sample) -> None:
         """Hand a sample over; weights (52,) by ARKit's names, time, gaze, head, faults."""

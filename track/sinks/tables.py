@@ -19,6 +19,7 @@ from regress.runtime.stages.retargeting.target_file import read_retargeting
 from regress.runtime.writers.csv_table import csv_lines
 from regress.runtime.writers.live_link import live_link_at
 from track.sinks.recording import Clock, Recording
+from track.sinks.rows import Rows
 from track.sinks.sink import Sink, Tell, has_face
 from track.sinks.targets import Target
 
@@ -53,23 +54,24 @@ class TableSink(Sink):
     ) -> None:
         self.title = target.title
         self._target, self._table, self._tell = target, table, tell
-        self._recording, self._clock, self._rows = Recording(target.path, others), Clock(), 0
+        self._recording, self._clock = Recording(target.path, others), Clock()
         with output_errors(target.path):
-            self._file = open(self._recording.part, "w", encoding="utf-8", newline="")
+            self._rows = Rows(self._recording.part)
 
     def send(self, sample: Sample) -> None:
         """Write a sample's row; of one without a face the cells stay empty."""
-        names, row = self._table(_whole(sample, self._rows, self._clock.of(sample))).splitlines(keepends=True)
+        number = self._rows.count
+        names, row = self._table(_whole(sample, number, self._clock.of(sample))).splitlines(keepends=True)
         with output_errors(self._recording.path):
-            self._file.write(row if self._rows else names + row)
-        self._rows += 1
+            self._rows.add((row if number else names + row).encode())
 
     def close(self) -> None:
         """Give the file its name; a table without rows leaves none."""
         with output_errors(self._recording.path):
-            self._file.close()
-        if self._rows:
+            self._rows.close()
+        if self._rows.count:
             self._recording.keep()
+            self.kept = True
             self.title = replace(self._target, place=str(self._recording.path)).title
         else:
             self._recording.drop()

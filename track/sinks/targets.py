@@ -15,6 +15,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from facegen.redaction import without_secrets
 from track.errors import InputError
 from track.sinks.sink import Sink, Tell
 
@@ -128,9 +129,9 @@ class Target:
 
     @property
     def title(self) -> str:
-        """What a person calls it: ``"vmc to 127.0.0.1:39539"``."""
+        """What a person calls it: ``"vmc to 127.0.0.1:39539"``; a link goes without its secret."""
         if self.port is None:
-            return f"{self.name} to {self.place}"
+            return f"{self.name} to {self.place if self.is_file else without_secrets(self.place)}"
         host = f"[{self.host}]" if ":" in self.host else self.host
         return f"{self.name} to {host}:{self.port}"
 
@@ -154,15 +155,16 @@ def parse_target(text: str) -> Target:
         Where the sink is not known, or its address, file or an option cannot be used.
     """
     kind, name, place, options = _split(text)
+    shown = without_secrets(text)
     for option, value in options.items():
         allowed = kind.options[option]
         if allowed and value not in allowed:
-            raise InputError(f"--to {text}: {option} is {value!r}; {' or '.join(allowed)} are allowed")
+            raise InputError(f"--to {shown}: {option} is {value!r}; {' or '.join(allowed)} are allowed")
     if kind.port is not None:
-        host, port = _address(place, kind.port, text)
+        host, port = _address(place, kind.port, shown)
         return Target(name=name, host=host, port=port, options=options)
     if not place:
-        raise InputError(f"--to {text}: {name} needs a {kind.needs.lower()}; write {name}:{kind.needs}")
+        raise InputError(f"--to {shown}: {name} needs a {kind.needs.lower()}; write {name}:{kind.needs}")
     return Target(name=name, place=place, options=options)
 
 
@@ -180,28 +182,33 @@ def open_sink(target: Target, tell: Tell) -> Sink:
 
 def _split(text: str) -> tuple[SinkKind, str, str, dict[str, str]]:
     """The sink's kind and name, what stands behind the colon, and the options, which are the last commas' parts."""
-    name = re.split(r"[:,]", text, maxsplit=1)[0]
+    name, shown = re.split(r"[:,]", text, maxsplit=1)[0], without_secrets(text)
     kind = SINKS.get(name)
     if kind is None:
-        raise InputError(f"--to {text}: there is no sink {name!r}; {', '.join(SINKS)} are known")
+        raise InputError(
+            f"--to {shown}: there is no sink {without_secrets(name)!r}; {', '.join(SINKS)} are known"
+        )
     rest, options = text[len(name) :], {}
     while match := re.search(r",([a-z_]+)=([^,]*)$", rest):
         if match[1] not in kind.options:
             known = ", ".join(kind.options) or "none"
-            raise InputError(f"--to {text}: {name} has no option {match[1]!r}; {known} are known")
+            raise InputError(f"--to {shown}: {name} has no option {match[1]!r}; {known} are known")
         rest, options[match[1]] = rest[: match.start()], match[2]
     if rest and not rest.startswith(":"):
-        raise InputError(f"--to {text}: {rest!r} is no option; write {name}:PLACE,OPTION=VALUE")
+        raise InputError(
+            f"--to {shown}: {without_secrets(rest)!r} is no option; write {name}:PLACE,OPTION=VALUE"
+        )
     return kind, name, rest[1:], options
 
 
-def _address(place: str, port: int, text: str) -> tuple[str, int]:
-    match = re.fullmatch(r"(?:\[([0-9a-fA-F:.]+(?:%\w+)?)\]|([^\[\]:\s/]*))(?::(\d{1,9}))?", place)
+def _address(place: str, port: int, shown: str) -> tuple[str, int]:
+    match = re.fullmatch(r"(?:\[([0-9a-fA-F:.]+(?:%[\w.-]+)?)\]|([^\[\]:\s/]*))(?::(\d{1,9}))?", place)
     if match is None:
         raise InputError(
-            f"--to {text}: {place!r} is no address; HOST, HOST:PORT or [IPV6]:PORT are allowed, as in 127.0.0.1:{port}"
+            f"--to {shown}: {without_secrets(place)!r} is no address; HOST, HOST:PORT or [IPV6]:PORT are allowed, "
+            f"as in 127.0.0.1:{port}"
         )
     host, given = match[1] or match[2] or THIS_MACHINE, int(match[3] or port)
     if not 1 <= given <= 65535:
-        raise InputError(f"--to {text}: there is no port {given}; 1 to 65535 are allowed")
+        raise InputError(f"--to {shown}: there is no port {given}; 1 to 65535 are allowed")
     return host, given

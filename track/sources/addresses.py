@@ -8,6 +8,7 @@ from urllib.parse import urlsplit
 
 import cv2
 
+from facegen.redaction import without_secrets
 from track.errors import CameraError
 from track.sources.opencv import grabbed, opened
 from track.sources.source import Picture, Source
@@ -18,19 +19,6 @@ SCHEMES = ("http", "https", "rtsp", "rtsps")
 def is_address(text: str) -> bool:
     """Whether a text names a place on the network, of whatever kind."""
     return re.match(r"[A-Za-z][A-Za-z0-9+.-]*://", text) is not None
-
-
-def without_secrets(address: str) -> str:
-    """An address as it may be shown: without user, password and what stands behind a question mark.
-
-    Cameras take passwords there, too (``?user=admin&password=...``), and people write signs into passwords that should
-    be escaped: where it cannot be told where one ends, nothing is shown.
-    """
-    scheme, _, rest = address.partition("://")
-    place, *query = re.split(r"[?#]", rest, maxsplit=1)
-    if query and "@" in query[0]:
-        return f"{scheme}://…"
-    return f"{scheme}://{place.rpartition('@')[2]}"
 
 
 class AddressSource(Source):

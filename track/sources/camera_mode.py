@@ -66,7 +66,8 @@ def split_mode(text: str) -> tuple[str, CameraMode]:
     CameraError
         Where a setting is not known, stands twice, or has no value that a camera can have.
     """
-    found = _SUFFIX.search(text)
+    # a password may look like settings, and stands before the last @ of an address
+    found = _SUFFIX.search(text, text.rfind("@") + 1 if "://" in text else 0)
     if found is None:
         return text, CameraMode()
     camera = text[: found.start()]

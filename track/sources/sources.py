@@ -4,9 +4,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from facegen.redaction import without_secrets
 from regress.runtime.headset.pictures.halves import split_half
 from track.errors import CameraError
-from track.sources.addresses import AddressSource, is_address, without_secrets
+from track.sources.addresses import AddressSource, is_address
 from track.sources.camera_memory import CameraMemory
 from track.sources.camera_mode import CameraMode, split_mode
 from track.sources.capture import Capture

@@ -1,23 +1,24 @@
 /** A meeting: ties the line, the people, their voices and the picture together. */
 
 import { byId } from "../elements.js";
-import { Brought } from "./brought.js";
-import { Controls } from "./controls.js";
-import { sentence } from "./join.js";
-import { Line } from "./line.js";
-import { newsOf } from "./news.js";
-import type { Microphone } from "./microphone.js";
-import { People, type Known } from "./people.js";
-import { Place } from "./place.js";
-import { Presence } from "./presence.js";
-import { FLAG, type Message } from "./protocol.js";
-import { Replaying } from "./replaying.js";
-import { Screen } from "./screen.js";
-import { Sidebar } from "./sidebar.js";
+import { sentence } from "./door/join.js";
+import { Line } from "./line/line.js";
+import { FLAG, type Message } from "./line/protocol.js";
+import type { Answer, Welcome } from "./line/texts.js";
+import { Controls } from "./page/controls.js";
+import { newsOf } from "./page/news.js";
+import { Raised } from "./page/raised.js";
+import { Replaying } from "./page/replaying.js";
+import { Sidebar } from "./page/sidebar.js";
+import { Status } from "./page/status.js";
+import { Brought } from "./people/brought.js";
+import { People, type Known } from "./people/people.js";
+import { Presence } from "./presence/presence.js";
+import { Place } from "./scene/place.js";
+import { Screen } from "./sharing/screen.js";
 import { Stage } from "./stage.js";
-import { Status } from "./status.js";
-import type { Answer, Welcome } from "./texts.js";
-import { Voice } from "./voice.js";
+import type { Microphone } from "./voice/microphone.js";
+import { Voice } from "./voice/voice.js";
 
 const HERTZ = 30;
 
@@ -32,6 +33,7 @@ export class Meeting {
   private readonly controls: Controls;
   private readonly replaying = new Replaying((said) => this.line.say(said));
   private readonly sidebar: Sidebar;
+  private readonly raised = new Raised();
   private readonly line: Line;
   private readonly status = new Status(byId("state"), () => [
     this.lineWord,
@@ -114,10 +116,9 @@ export class Meeting {
     this.own = welcome;
     this.presence.arrive(performance.now());
     this.voice.configure(welcome.ice, welcome.engine);
-    this.people.clear();
+    this.people.welcome(welcome.people, welcome.number);
     this.stage.pointers.clear();
-    this.people.own = welcome.number;
-    for (const person of welcome.people) this.people.meet(person);
+    for (const { number } of welcome.people) this.speak(number, false); // in mid-word when the line broke, perhaps
     this.brought.again();
     this.locked = welcome.locked;
     this.lineWord = "";
@@ -142,6 +143,7 @@ export class Meeting {
       case "left":
         this.voice.part(this.people.part(answer.number)?.id ?? "");
         this.stage.pointers.drop(answer.number);
+        this.raised.drop(answer.number);
         break;
       case "line":
         this.sidebar.line(answer.name, answer.text, answer.time_s);
@@ -182,6 +184,9 @@ export class Meeting {
     known.newest = message;
     known.playback.push(message, performance.now());
     if (number === this.own?.number) this.presence.resume(message);
+    const raised = this.raised.see(number, message, performance.now());
+    if (raised) this.show();
+    if (raised === "up" && this.own?.moderator && number !== this.own.number) this.tell(`${known.person.name} raises a hand.`);
     this.speak(number, (message.flags & FLAG.speaking) !== 0);
   }
 
@@ -199,12 +204,13 @@ export class Meeting {
     this.controls.seat(this.presence.stance.seated);
     this.line.move(this.presence.move(now));
     this.presence.listen(this.voice, this.people.others, now);
+    if (this.voice.watch(now)) this.show();
   }
 
   private show(): void {
     if (!this.own) return;
     const people = this.people.all;
-    this.sidebar.list(people, this.own.number, this.own.moderator);
+    this.sidebar.list(people, this.own.number, this.own.moderator, this.raised);
     this.voice.meet(people, this.own.id);
     this.screen.meet(people, this.own.id);
     this.controls.show(this.own, people, this.locked);

@@ -1,11 +1,11 @@
 /** The page of a room: asks who comes, and opens the meeting. */
 
 import { byId } from "../elements.js";
-import { Wardrobe } from "./avatars.js";
-import { about, ask, readLink } from "./join.js";
+import { about, ask, readLink } from "./door/join.js";
+import { randomText, secretOf } from "./door/secret.js";
 import { Meeting } from "./meeting.js";
-import { Place } from "./place.js";
-import { randomText, secretOf } from "./secret.js";
+import { Wardrobe } from "./people/avatars.js";
+import { Place } from "./scene/place.js";
 
 /** Whether there is WebGL 2, which the picture is drawn with. */
 function drawsPictures(): boolean {

@@ -1,11 +1,11 @@
 /** What is seen: the room, the people in it and where they point, drawn as often as the browser asks for a picture. */
 
-import type { People } from "./people.js";
-import type { Place } from "./place.js";
-import { Pointers } from "./pointers.js";
-import type { Presence } from "./presence.js";
-import { FLAG } from "./protocol.js";
-import { View } from "./view.js";
+import { FLAG } from "./line/protocol.js";
+import type { Known, People } from "./people/people.js";
+import type { Presence } from "./presence/presence.js";
+import type { Place } from "./scene/place.js";
+import { Pointers } from "./scene/pointers.js";
+import { View } from "./scene/view.js";
 
 export class Stage {
   readonly view: View;
@@ -41,18 +41,42 @@ export class Stage {
     const seconds = Math.min(0.1, (now - this.drawn) / 1000);
     this.drawn = now;
     presence.look(this.view, seconds);
-    for (const [number, { person, playback, figure }] of people.known) {
-      const shown = playback.at(now);
-      if (!figure || !shown) continue;
-      figure.root.visible = true;
-      const self = number === people.own;
-      // one's own picture shows what is sent, as a mirror that lags is worse than none; but a program's face only comes back
-      const mine = self && person.face === "page" ? presence.sent : undefined;
-      if (self) this.view.face_m = figure.face_m;
-      figure.show(mine ?? shown, seconds, this.view.eye);
-      this.pointers.show(number, mine ?? shown, figure, this.view.eye, self);
-      if (!self) figure.call(person, (shown.flags & FLAG.tracked) !== 0);
+    for (const known of people.known.values()) {
+      try {
+        this.show(known, known.person.number === people.own, presence, now, seconds);
+      } catch (error) {
+        console.warn(`the avatar of ${known.person.name}:`, error);
+        people.refuse(known);
+      }
     }
-    if (this.drawing) this.view.draw();
+    if (this.drawing) this.paint(people);
+  }
+
+  private show({ person, playback, figure }: Known, self: boolean, presence: Presence, now: number, seconds: number): void {
+    const shown = playback.at(now);
+    if (!figure || !shown) return;
+    figure.root.visible = true;
+    // one's own picture shows what is sent, as a mirror that lags is worse than none; but a program's face only comes back
+    const mine = self && person.face === "page" ? presence.sent : undefined;
+    if (self) this.view.face_m = figure.face_m;
+    figure.show(mine ?? shown, seconds, this.view.eye);
+    this.pointers.show(person.number, mine ?? shown, figure, this.view.eye, self);
+    if (!self) figure.call(person, (shown.flags & FLAG.tracked) !== 0);
+  }
+
+  /** Draw; where an avatar breaks the picture off, one after the other is left out until it is known which one. */
+  private paint(people: People): void {
+    const seen = [...people.known.values()].filter(({ figure }) => figure?.root.visible);
+    for (const known of [undefined, ...seen]) {
+      if (known) known.figure!.root.visible = false;
+      try {
+        this.view.draw();
+        if (known) people.refuse(known);
+        break;
+      } catch (error) {
+        console.warn("picture:", error);
+      }
+    }
+    for (const { figure } of seen) if (figure) figure.root.visible = true;
   }
 }

@@ -1,43 +1,51 @@
-"""NumPy files of landmarks, (n, 68, 2), (n, 70, 2) with the irises, or a mesh; one face may stand without its n."""
+"""NumPy files of landmarks, (n, k, 2) of any known order (`orders`), or an archive of one; a face needs no n."""
 
 from pathlib import Path
 
 import numpy as np
 
-from facegen.archives import load_npy
+from facegen.archives import load_npy, load_npz
 from facegen.conventions import LANDMARK_COUNT
 from regress.errors import InputError
-from regress.runtime.inputs.frames import MOST_FRAMES, Frames, split_irises
-from regress.runtime.inputs.mesh import VERTICES, irises_of, landmarks_of
+from regress.runtime.inputs.frames import MOST_FRAMES, Frames
+from regress.runtime.inputs.orders import COUNTS, COUNTS_SAID, split_irises
 
 _MOST_BYTES = MOST_FRAMES * (LANDMARK_COUNT + 2) * 2 * 8
 """Of as many frames as are read, in float64."""
 
 
 def is_array(path: Path) -> bool:
-    """Whether this is an ``.npy`` file."""
-    return path.suffix.lower() == ".npy"
+    """Whether this is an ``.npy`` or ``.npz`` file."""
+    return path.suffix.lower() in (".npy", ".npz")
 
 
 def read_array(path: Path) -> Frames:
-    """Frames in the array's order; labels count from 0."""
-    points = load_npy(path, most_bytes=_MOST_BYTES)
-    known = ((LANDMARK_COUNT, 2), (LANDMARK_COUNT + 2, 2), (VERTICES, 2), (VERTICES, 3))
-    if points.shape in known:
+    """Frames in the array's order; labels count from 0. A third coordinate is a depth, and left alone."""
+    points = _array(path)
+    if points.ndim == 2 and len(points) in COUNTS and points.shape[1] in (2, 3):
         points = points[None]
-    if points.ndim != 3 or points.shape[1:] not in known or not 0 < len(points) <= MOST_FRAMES:
+    shaped = points.ndim == 3 and points.shape[1] in COUNTS and points.shape[2] in (2, 3)
+    if not shaped or not 0 < len(points) <= MOST_FRAMES:
         raise InputError(
             f"{path} has shape {points.shape}; (n, {LANDMARK_COUNT}, 2) is needed, n from 1 to {MOST_FRAMES:,}, "
-            f"or (n, {LANDMARK_COUNT + 2}, 2) with the irises, or (n, {VERTICES}, 2 or 3) of MediaPipe's mesh"
+            f"or other points of a face: {COUNTS_SAID}"
         )
     if points.dtype.kind not in "fiu":
         raise InputError(f"{path} holds {points.dtype}; numbers are needed")
     with np.errstate(invalid="ignore"):  # signalling NaNs are missing points as others are
-        points = points.astype(np.float64)
-    if points.shape[1] == VERTICES:
-        mesh = points[..., :2]
-        faces, irises = landmarks_of(mesh), irises_of(mesh)
-    else:
-        faces, irises = split_irises(points)
+        points = points[..., :2].astype(np.float64)
+    faces, irises = split_irises(points)
     labels = tuple(map(str, range(len(points))))
     return Frames(points=faces, labels=labels, time_s=None, source=str(path), irises=irises)
+
+
+def _array(path: Path) -> np.ndarray:
+    if path.suffix.lower() == ".npy":
+        return load_npy(path, most_bytes=_MOST_BYTES)
+    arrays = load_npz(path, most_bytes=_MOST_BYTES)
+    if len(arrays) != 1:
+        names = ", ".join(sorted(arrays)[:5]) or "none"
+        raise InputError(
+            f"{path} holds {len(arrays)} arrays ({names}); one is needed, of points: save it as .npy"
+        )
+    return next(iter(arrays.values()))

@@ -31,7 +31,8 @@ def read_ck_plus(path: Path) -> Frames:
     """
     files = sorted(_files(path)) if path.is_dir() else [path]
     labels = tuple(file.name.removesuffix(_ENDING) for file in files)
-    return Frames(points=stacked(map(_face, files), path), labels=labels, time_s=None, source=str(path))
+    points, _ = stacked(map(_face, files), path)
+    return Frames(points=points, labels=labels, time_s=None, source=str(path))
 
 
 def _files(folder: Path) -> Iterator[Path]:

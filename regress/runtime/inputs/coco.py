@@ -1,6 +1,7 @@
 """COCO keypoints in JSON: 68 triples (x, y, v) in ``keypoints``, or in COCO-WholeBody's ``face_kpts``.
 
-Where ``keypoints`` are 133 of a whole body, the face's are taken. Results stand in a list, without their pictures.
+Other numbers of points are of other orders (`regress.runtime.inputs.orders`), as 133 of a whole body. Results stand in
+a list, without their pictures, and have a score between 0 and 1 for v.
 """
 
 from collections import Counter
@@ -15,8 +16,10 @@ from facegen.documents import load_json
 from facegen.formats.natural_order import NaturalOrder, natural_order
 from regress.errors import InputError
 from regress.runtime.documents import checked
+from regress.runtime.inputs import instances, mesh_results
 from regress.runtime.inputs.frames import Frames, of_pictures, stacked
-from regress.runtime.inputs.instances import FACE, WHOLE_BODY, is_document, read_parsed
+from regress.runtime.inputs.orders import COUNTS, seventy
+from regress.runtime.inputs.weights import holds_weights
 
 _MOST_BYTES = 256 * 1024**2
 """Some 100,000 annotations; as Python's numbers they take four times as much memory."""
@@ -53,13 +56,18 @@ def is_json(path: Path) -> bool:
 
 
 def read_json(path: Path) -> Frames:
-    """Frames of COCO's annotations and results, or of a pose estimator's (`regress.runtime.inputs.instances`)."""
+    """Frames of COCO's annotations and results, of a pose estimator's (`instances`) or MediaPipe's (`mesh_results`)."""
     try:
         document = load_json(path, most_bytes=_MOST_BYTES)
     except InputError as error:
         reason = str(error).removeprefix(f"{path}: ")
         raise InputError(f"{path} is not a COCO keypoints file: {reason}") from error
-    return read_parsed(document, path) if is_document(document) else _read_coco(document, path)
+    for format_ in (instances, mesh_results):
+        if format_.is_document(document):
+            return format_.read_parsed(document, path)
+    if holds_weights(document):
+        raise InputError(f"{path} holds weights already; the landmarks that they came from are needed")
+    return _read_coco(document, path)
 
 
 def _read_coco(document: Any, path: Path) -> Frames:
@@ -77,7 +85,10 @@ def _read_coco(document: Any, path: Path) -> Frames:
         document = checked(_Coco, document)
     except InputError as error:
         reason = str(error).removeprefix(f"{path}: ")
-        raise InputError(f"{path} is not a COCO keypoints file: {reason}") from error
+        raise InputError(
+            f"{path} is not a COCO keypoints file: {reason}; results of OpenPose, of mmpose and of MediaPipe "
+            "(faceLandmarks) are read as well"
+        ) from error
     if not document.annotations:
         raise InputError(f"{path} has no annotation")
     names = {
@@ -98,8 +109,8 @@ def _read_coco(document: Any, path: Path) -> Frames:
         name if faces[entry.image_id] == 1 else f"{name}/{entry.id}"
         for name, entry in zip(named, annotations, strict=True)
     ]
-    points = stacked((_face(entry, path) for entry in annotations), path)
-    frames = Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
+    points, irises = stacked((_face(entry, path) for entry in annotations), path)
+    frames = Frames(points=points, labels=tuple(labels), time_s=None, source=str(path), irises=irises)
     pictures = sorted(names.keys() | {entry.image_id for entry in document.annotations}, key=_order)
     place = {picture: number for number, picture in enumerate(pictures)}
     of = [place[entry.image_id] for entry in annotations]
@@ -120,18 +131,18 @@ def _order(key: _Id) -> tuple[bool, int | NaturalOrder]:
 
 
 def _numbers(entry: _Annotation) -> list[Any] | None:
-    """Those of 68 points, where the annotation has them."""
+    """Those of a face's points, where the annotation has them; 68 go before others."""
     given = [one for one in (entry.keypoints, entry.face_kpts) if isinstance(one, list)]
-    face = next((one for one in given if len(one) == 3 * LANDMARK_COUNT), None)
-    body = next((one for one in given if len(one) == 3 * WHOLE_BODY), None)
-    return body[3 * FACE.start : 3 * FACE.stop] if face is None and body is not None else face
+    return next((one for count in COUNTS for one in given if len(one) == 3 * count), None)
 
 
 def _face(entry: _Annotation, path: Path) -> np.ndarray:
     try:
-        triples = np.array(_numbers(entry), dtype=np.float64).reshape(LANDMARK_COUNT, 3)
+        triples = np.array(_numbers(entry), dtype=np.float64).reshape(-1, 3)
     except (ValueError, TypeError, OverflowError) as error:
         raise InputError(
             f"{path}: annotation {entry.id} holds something that is not a number ({error})"
         ) from error
-    return np.where(triples[:, 2:] > 0, triples[:, :2], np.nan)
+    seen = triples[:, 2:]
+    face = seventy(np.column_stack([np.where(seen > 0, triples[:, :2], np.nan), seen]))
+    return face[:, :2] if np.isin(face[:, 2], (0, 1, 2)).all() else instances.scored(face)

@@ -41,7 +41,7 @@ def read_dlib_xml(path: Path) -> Frames:
             names.append(name)
             yield face
 
-    points = stacked(faces(), path)
+    points, _ = stacked(faces(), path)
     frames = Frames(points=points, labels=tuple(labels), time_s=None, source=str(path))
     return of_pictures(frames, pictures, names)
 

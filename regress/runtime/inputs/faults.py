@@ -10,7 +10,7 @@ import numpy as np
 from facegen.conventions import LANDMARK_GROUPS
 from facegen.number_ranges import format_ranges
 
-_OUTLINE = np.array(
+OUTLINE = np.array(
     [
         *LANDMARK_GROUPS["jaw"],
         *reversed(LANDMARK_GROUPS["left_brow"]),
@@ -19,15 +19,15 @@ _OUTLINE = np.array(
 )
 """Jaw from the subject's right ear over the chin, then back along the brows: once round the face."""
 
-_NEXT = np.roll(_OUTLINE, -1)
+_NEXT = np.roll(OUTLINE, -1)
 
-_FLAT = 1e-3
+FLAT = 1e-3
 """Determinant of the points' covariance over its trace squared, at or below which they are on one line.
 
 Faces of the default dataset have 0.2 and more, profiles too.
 """
 
-_TURNED = 0.1
+TURNED = 0.1
 """Area of the outline, over the square of twice the extent, above which it runs the wrong way round.
 
 Faces of the default dataset have -0.38 to -0.79, recorded ones -0.35 to -0.71, a profile 0, mirrored ones the opposite.
@@ -71,9 +71,9 @@ def face_faults(points: np.ndarray) -> list[Fault | None]:
     scale = 1 / np.where(extent > _SMALLEST, extent, np.inf)[:, None]
     x, y = x * scale, y * scale
     xx, yy, xy = (np.einsum("nk,nk->n", *pair) for pair in ((x, x), (y, y), (x, y)))
-    collapsed = ~(xx * yy - xy * xy > _FLAT * (xx + yy) ** 2)
-    cross = x[:, _OUTLINE] * y[:, _NEXT] - y[:, _OUTLINE] * x[:, _NEXT]
-    mirrored = cross.sum(axis=1) / 8 > _TURNED  # half of the sum, over the square of twice the extent of 1
+    collapsed = ~(xx * yy - xy * xy > FLAT * (xx + yy) ** 2)
+    cross = x[:, OUTLINE] * y[:, _NEXT] - y[:, OUTLINE] * x[:, _NEXT]
+    mirrored = cross.sum(axis=1) / 8 > TURNED  # half of the sum, over the square of twice the extent of 1
     return [
         Fault.MISSING if not sound else Fault.COLLAPSED if flat else Fault.MIRRORED if turned else None
         for sound, flat, turned in zip(usable, collapsed, mirrored, strict=True)

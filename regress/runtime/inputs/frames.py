@@ -9,6 +9,7 @@ import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
 from regress.errors import InputError
+from regress.runtime.inputs.orders import split_irises
 from regress.runtime.inputs.people import people_of
 from regress.runtime.sample import Sample
 
@@ -143,18 +144,10 @@ def of_pictures(
     return replace(frames, faces=tuple(faces), picture_names=tuple(names))
 
 
-def split_irises(points: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-    """Landmarks (n, 68, 2), and irises (n, 2, 2) where there are two points more.
+def stacked(faces: Iterable[np.ndarray], path: Path) -> tuple[np.ndarray, np.ndarray | None]:
+    """Points (n, 68, 2), and irises (n, 2, 2) where some face has them, of faces (68 or 70, 2), taken as they come.
 
-    Behind the 68, as OpenPose writes them: the middle of the subject's right iris, then of the left one.
-    """
-    if points.shape[1] == LANDMARK_COUNT:
-        return points, None
-    return points[:, :LANDMARK_COUNT], points[:, [LANDMARK_COUNT + 1, LANDMARK_COUNT]]
-
-
-def stacked(faces: Iterable[np.ndarray], path: Path) -> np.ndarray:
-    """Points (n, 68, 2) of faces (68, 2), taken as they come; ``path`` begins the sentence of an error.
+    ``path`` begins the sentence of an error.
 
     Raises
     ------
@@ -164,4 +157,6 @@ def stacked(faces: Iterable[np.ndarray], path: Path) -> np.ndarray:
     kept = list(islice(faces, MOST_FRAMES + 1))
     if len(kept) > MOST_FRAMES:
         raise InputError(f"{path} holds more than {MOST_FRAMES:,} faces; give them in parts")
-    return np.stack(kept)
+    if len({len(face) for face in kept}) > 1:
+        kept = [np.concatenate([face, np.full((2, 2), np.nan)])[: LANDMARK_COUNT + 2] for face in kept]
+    return split_irises(np.stack(kept))

@@ -1,7 +1,7 @@
 """Faces of pose estimators in JSON: OpenPose's ``people``, a file a picture, and mmpose's ``instances``.
 
-OpenPose writes 70 points of a face, the last two of which are irises; mmpose 133 of a body (COCO-WholeBody), of which
-68 are the face's. Both are in iBUG's order. Neither says who is who, nor when pictures were taken.
+OpenPose writes 70 points of a face, the last two of which are irises; mmpose those of the dataset that its model
+learned, as 133 of a body (`regress.runtime.inputs.orders`). Neither says who is who, nor when pictures were taken.
 """
 
 from collections.abc import Iterator
@@ -15,13 +15,11 @@ from facegen.documents import load_json
 from facegen.formats.litter import is_litter
 from facegen.formats.natural_order import natural_order
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames, of_pictures, split_irises, stacked
+from regress.runtime.inputs.frames import Frames, of_pictures, stacked
+from regress.runtime.inputs.orders import COUNTS, seventy
 
-WHOLE_BODY, FACE = 133, slice(23, 91)
-"""Points of COCO-WholeBody, and which of them are the face's."""
-
-_SCORE_LEAST = 0.3
-"""Mean score of a face's points in mmpose's results below which there is none: what it draws from on itself."""
+SCORE_LEAST = 0.3
+"""Mean score of a face's points in results below which there is none: what mmpose draws from on itself."""
 
 _ENDING = "_keypoints.json"
 """Of OpenPose's files."""
@@ -103,18 +101,22 @@ def _people(document: Any, path: Path) -> list[np.ndarray | None]:
 
 
 def _instance(instance: Any, path: Path, picture: int) -> np.ndarray | None:
-    """Points (68, 2) of one of mmpose's instances; NaN where its scores say that there is no face."""
+    """Points (68 or 70, 2) of one of mmpose's instances; NaN where its scores say that there is no face."""
     if not isinstance(instance, dict):
         raise InputError(f"{path}: picture {picture} has an instance that is no table")
     points = _numbers(instance.get("keypoints"), path)
-    if points.ndim != 2 or points.shape[1] not in (2, 3) or len(points) not in (LANDMARK_COUNT, WHOLE_BODY):
+    if points.ndim != 2 or points.shape[1] not in (2, 3) or len(points) not in COUNTS:
         return None
     scores = _numbers(instance.get("keypoint_scores", np.ones(len(points)).tolist()), path)
     if scores.shape != (len(points),):
         raise InputError(f"{path}: picture {picture} has {scores.size} scores of {len(points)} points")
-    face = FACE if len(points) == WHOLE_BODY else slice(None)
-    seen = scores[face].mean() >= _SCORE_LEAST
-    return points[face, :2] if seen else np.full((LANDMARK_COUNT, 2), np.nan)
+    return scored(seventy(np.column_stack([points[:, :2], scores])))
+
+
+def scored(face: np.ndarray) -> np.ndarray:
+    """Points (k, 2) of a face with a score behind each (k, 3); NaN where the mean score says that there is none."""
+    seen = face[:LANDMARK_COUNT, 2].mean() >= SCORE_LEAST
+    return face[:, :2] if seen else np.full((len(face), 2), np.nan)
 
 
 def _numbers(given: Any, path: Path) -> np.ndarray:
@@ -136,8 +138,8 @@ def _frames(pictures: list[list[np.ndarray | None]], names: list[str], path: Pat
     if not faces:
         raise InputError(
             f"{path} holds no face: OpenPose wants --face, and mmpose a model of whole bodies or of faces of "
-            f"{LANDMARK_COUNT} points"
+            f"{LANDMARK_COUNT} or 98 points"
         )
-    points, irises = split_irises(stacked(faces, path))
+    points, irises = stacked(faces, path)
     frames = Frames(points=points, labels=tuple(labels), time_s=None, source=str(path), irises=irises)
     return of_pictures(frames, of, [names[number] for number in of])

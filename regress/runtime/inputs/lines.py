@@ -10,7 +10,7 @@ import numpy as np
 from facegen.conventions import LANDMARK_COUNT
 from regress.errors import InputError
 from regress.runtime.inputs.faults import Fault
-from regress.runtime.inputs.frames import split_irises
+from regress.runtime.inputs.orders import split_irises
 from regress.runtime.sample import Sample
 
 _NUMBERS = 2 * LANDMARK_COUNT

@@ -1,4 +1,4 @@
-"""Turns MediaPipe's face mesh, 478 points, into 68 landmarks and irises."""
+"""Turns MediaPipe's face mesh, 478 points or 468 without irises, into 68 landmarks and irises."""
 
 from functools import cache
 from pathlib import Path
@@ -10,6 +10,9 @@ from facegen.documents import load_json
 
 VERTICES = 478
 """Of the mesh with irises."""
+
+IRISLESS = 468
+"""Of the mesh without them, whose vertices have the same numbers: irises stand behind."""
 
 _TABLE = Path(__file__).parents[2] / "data" / "mediapipe_points.json"
 
@@ -27,7 +30,7 @@ def _table() -> tuple[np.ndarray, np.ndarray, list[int]]:
 
 
 def landmarks_of(mesh: np.ndarray) -> np.ndarray:
-    """68 landmarks (..., 68, 2) of a mesh (..., 478, 2), in the mesh's units."""
+    """68 landmarks (..., 68, 2) of a mesh (..., 468 or 478, 2), in the mesh's units."""
     first, second, _ = _table()
     return (mesh[..., first, :] + mesh[..., second, :]) / 2
 

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from facegen.conventions import LANDMARK_COUNT
 from facegen.formats import read_pts
 from facegen.formats.litter import is_litter
 from facegen.formats.natural_order import natural_order
 from regress.errors import InputError
 from regress.runtime.inputs.frames import Frames, stacked
+from regress.runtime.inputs.orders import COUNTS, COUNTS_SAID, seventy
 
 _PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".webp")
 """Of a folder for which landmarks are still to be found."""
@@ -30,7 +30,8 @@ def is_pts(path: Path) -> bool:
 
 def read_one(path: Path) -> Frames:
     """One face; its label is the file's name without the ending."""
-    return Frames(points=_face(path)[None], labels=(path.stem,), time_s=None, source=str(path))
+    points, irises = stacked([_face(path)], path)
+    return Frames(points=points, labels=(path.stem,), time_s=None, source=str(path), irises=irises)
 
 
 def read_folder(path: Path) -> Frames:
@@ -50,9 +51,16 @@ def read_folder(path: Path) -> Frames:
                 "--record weights.csv finds landmarks itself, and regress headset predict reads a headset's cameras"
             )
         raise InputError(f"{path} holds no .pts file")
-    points = stacked(map(_face, files), path)
+    points, irises = stacked(map(_face, files), path)
     labels = tuple(file.relative_to(path).with_suffix("").as_posix() for file in files)
-    return Frames(points=points, labels=labels, time_s=None, source=str(path), numbers=_counted(labels))
+    return Frames(
+        points=points,
+        labels=labels,
+        time_s=None,
+        source=str(path),
+        irises=irises,
+        numbers=_counted(labels),
+    )
 
 
 def _counted(names: Sequence[str]) -> np.ndarray | None:
@@ -70,6 +78,6 @@ def _counted(names: Sequence[str]) -> np.ndarray | None:
 
 def _face(path: Path) -> np.ndarray:
     points = read_pts(path)
-    if len(points) != LANDMARK_COUNT:
-        raise InputError(f"{path} holds {len(points)} points; the iBUG order of {LANDMARK_COUNT} is needed")
-    return points
+    if len(points) not in COUNTS:
+        raise InputError(f"{path} holds {len(points)} points; {COUNTS_SAID} can be read")
+    return seventy(points)

@@ -46,13 +46,21 @@ READERS: dict[str, Reader] = {
     "pts_folder": Reader(description="a folder of .pts files", matches=Path.is_dir, read=pts.read_folder),
     "pts": Reader(description="a .pts file", matches=pts.is_pts, read=pts.read_one),
     "npy": Reader(
-        description="an .npy file (n, 68, 2) or (n, 478, 2)", matches=arrays.is_array, read=arrays.read_array
+        description="an .npy or .npz file (n, 68, 2) or (n, 478, 2)",
+        matches=arrays.is_array,
+        read=arrays.read_array,
     ),
     "dlib_xml": Reader(description="a dlib .xml", matches=dlib_xml.is_dlib_xml, read=dlib_xml.read_dlib_xml),
     "coco": Reader(
-        description="a COCO keypoints, OpenPose or mmpose .json", matches=coco.is_json, read=coco.read_json
+        description="a COCO keypoints, OpenPose, mmpose or MediaPipe .json",
+        matches=coco.is_json,
+        read=coco.read_json,
     ),
-    "csv": Reader(description="an OpenFace or py-feat .csv", matches=tables.is_table, read=tables.read_table),
+    "csv": Reader(
+        description="an OpenFace, py-feat or other .csv of points",
+        matches=tables.is_table,
+        read=tables.read_table,
+    ),
 }
 """Tried in this order."""
 

@@ -1,9 +1,9 @@
-"""CSV files of OpenFace and py-feat: columns ``x_0 .. x_67`` and ``y_0 .. y_67``, read by name.
+"""CSV files of OpenFace, py-feat and others: columns as ``x_0 .. x_67`` and ``y_0 .. y_67``, read by name.
 
 OpenFace puts a blank before each column's name, all x before all y, ``success`` 0 where it saw no face.
-py-feat leaves cells empty there. Columns ``x_68``, ``y_68``, ``x_69``, ``y_69`` are irises, if it has all four. Of
-MediaPipe's mesh, ``mesh_x_0 .. mesh_x_477`` or ``x_0 .. x_477``, 68 points and the irises are taken; of OpenFace's
-eyes, ``eye_lmk_x_0 .. eye_lmk_x_55``, the middles of the irises' edges.
+py-feat leaves cells empty there. Which columns are points `regress.runtime.inputs.columns` says, and what they are
+`regress.runtime.inputs.orders`; of OpenFace's eyes, ``eye_lmk_x_0 .. eye_lmk_x_55``, the middles of the irises' edges
+are taken.
 """
 
 import math
@@ -12,29 +12,20 @@ from pathlib import Path
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT
+from facegen.conventions import LANDMARK_COUNT
 from facegen.formats.csv_rows import CsvRows, number_in, numbers_in
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames, split_irises, stacked
-from regress.runtime.inputs.mesh import VERTICES, irises_of, landmarks_of
+from regress.runtime.inputs.columns import point_columns
+from regress.runtime.inputs.frames import Frames, stacked
+from regress.runtime.inputs.orders import seventy
 from regress.runtime.inputs.people import people_of, places_of
-
-_POINTS = tuple(f"{axis}_{index}" for index in range(LANDMARK_COUNT) for axis in "xy")
-_BY_AXIS = tuple(sorted(_POINTS, key=lambda name: name[0]))
-_IRISES = tuple(f"{axis}_{index}" for index in (LANDMARK_COUNT, LANDMARK_COUNT + 1) for axis in "xy")
-"""Of the subject's right iris, then of the left one, where a table has them."""
+from regress.runtime.inputs.times import LATEST_S, TIMES, time_name
 
 _EDGE = 8
 """Points about the edge of an iris, the first of OpenFace's 28 of each eye."""
 
 _EDGES = tuple(f"eye_lmk_{axis}_{eye + index}" for eye in (0, 28) for index in range(_EDGE) for axis in "xy")
 """Of OpenFace's eyes in two dimensions: the one at the picture's left, the subject's right eye, first."""
-
-_MESHES = tuple(
-    tuple(f"{prefix}{axis}_{index}" for index in range(VERTICES) for axis in "xy") for prefix in ("mesh_", "")
-)
-"""MediaPipe's points in py-feat. Where they are called ``mesh_``, its ``x_0 .. x_67`` are some of these too, and not
-those of iBUG: the chin is point 10, and point 33 the tip of the nose."""
 
 _SIZE = ("FrameWidth", "FrameHeight")
 """Of the pictures, as py-feat calls it."""
@@ -48,16 +39,10 @@ _TRUST = ("confidence", "FaceScore")
 _TRUST_LEAST = 0.5
 """Below, a face is none: py-feat's own limit, and what OpenFace calls a success lies above it."""
 
-_LONGER = f"x_{LANDMARK_COUNT + 2}"
-"""A column that neither 68 points have nor their irises."""
-
 _PEOPLE = ("face_id", "Identity")
 """Which person a face is, as OpenFace and py-feat call it."""
 
-_OTHERS = ("frame", "timestamp", "success", *_TRUST, *_SIZE, *_PEOPLE)
-
-_LATEST_S = 1e19
-"""Of a time: nanoseconds since 1970 are less."""
+_OTHERS = ("frame", "success", *TIMES, *_TRUST, *_SIZE, *_PEOPLE)
 
 
 def is_table(path: Path) -> bool:
@@ -66,7 +51,7 @@ def is_table(path: Path) -> bool:
 
 
 def read_table(path: Path) -> Frames:
-    """Frames of an OpenFace or py-feat CSV, told apart by the column ``success``, which OpenFace has.
+    """Frames of a table; which of OpenFace's columns it has tells what else is known.
 
     In OpenFace's a frame without success has no face, nor has one of which the detector is not sure. Labels are the
     column ``frame``, or count from 0. Several faces of a frame are rows of their own: ``frame/FACE``, by the column
@@ -79,36 +64,18 @@ def read_table(path: Path) -> Frames:
 
 
 def _shown(table: CsvRows) -> tuple[str, ...]:
-    """Columns of the points that are read: a mesh's where there is one, else the 68, maybe with irises."""
-    columns = table.columns.keys()
-    mesh = next((names for names in _MESHES if columns >= set(names)), None)
-    if mesh is not None:
-        return mesh
-    missing = [name for name in _BY_AXIS if name not in columns]
-    if missing == list(_BY_AXIS) and set(BLENDSHAPES) <= {name[:1].lower() + name[1:] for name in columns}:
-        raise InputError(
-            f"{table.path} is a table of weights already; the landmarks that they came from are needed"
-        )
-    if missing:
-        raise InputError(
-            f"{table.path} lacks {len(missing)} of the columns x_0 .. x_67, y_0 .. y_67, first {missing[0]}; "
-            "OpenFace and py-feat write them"
-        )
-    if _LONGER in columns:
-        raise InputError(
-            f"{table.path} has a column {_LONGER}, but not all of x_0 .. x_477, y_0 .. y_477 of MediaPipe's mesh; "
-            "these are needed, or 68 points in iBUG's order"
-        )
-    return _POINTS + next((names for names in (_IRISES, _EDGES) if set(names) <= columns), ())
+    """Columns of the points that are read, and of the edges of irises where 68 points have no others."""
+    points = point_columns(table.columns, table.path)
+    alone = len(points) == 2 * LANDMARK_COUNT and set(_EDGES) <= table.columns.keys()
+    return points + (_EDGES if alone else ())
 
 
 def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
     columns = table.columns
-    openface = "success" in columns
-    timed = openface and "timestamp" in columns
+    time = _time_column(table)
     person = next((columns[name] for name in _PEOPLE if name in columns), None)
     said = [name for name in ("success", *_TRUST, *_SIZE) if name in columns]
-    names = (*shown, *said, *(["timestamp"] if timed else []))
+    names = (*shown, *said)
     picked = [columns[name] for name in names]
     labels: list[str] = []
     people: list[str] = []
@@ -121,17 +88,18 @@ def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
             of_row = dict(zip(said, numbers[len(shown) :].tolist(), strict=False))
             labels.append(row[columns["frame"]].strip() if "frame" in columns else str(number))
             people.append("" if person is None else row[person].strip())
-            if timed:
-                time_s.append(numbers[-1])
+            if time is not None:
+                time_s.append(_seconds(table, row, time))
             size_px = tuple(of_row.get(name, math.nan) for name in _SIZE)
             if all(1 <= side <= _LARGEST_PX for side in size_px):
                 sizes_px.add(size_px)
             points = _landmarks(numbers[: len(shown)].reshape(-1, 2))
             yield points if _is_face(of_row) else np.full_like(points, np.nan)
 
-    points, irises = split_irises(stacked(faces(), table.path))
-    if any(abs(time) > _LATEST_S for time in time_s):
-        raise InputError(f"{table.path}: a timestamp is beyond {_LATEST_S:g} s")
+    points, irises = stacked(faces(), table.path)
+    timed = time is not None and not any(second is None for second in time_s)
+    if timed and any(abs(second) > LATEST_S for second in time_s):
+        raise InputError(f"{table.path}: a {time} is beyond {LATEST_S:g} s")
     numbers = _counted(labels) if "frame" in columns else None
     face_ids = _told_apart(labels, people, np.isfinite(points).all(axis=(1, 2)))
     if face_ids is not None and numbers is not None and (np.diff(numbers) < 0).any():
@@ -163,13 +131,28 @@ def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
 
 
 def _landmarks(points: np.ndarray) -> np.ndarray:
-    """Points (68 or 70, 2) of those of a row, of which a mesh has more, and OpenFace's edges of irises."""
-    if len(points) == VERTICES:
-        return np.concatenate([landmarks_of(points), irises_of(points)[::-1]])
+    """Points (68 or 70, 2) of those of a row, of which OpenFace has edges of irises: the right iris comes first."""
     if len(points) == LANDMARK_COUNT + 2 * _EDGE:
         face, edges = np.split(points, [LANDMARK_COUNT])
         return np.concatenate([face, edges.reshape(2, _EDGE, 2).mean(axis=1)])
-    return points
+    return seventy(points)
+
+
+def _time_column(table: CsvRows) -> str | None:
+    """The column of times, if there is one."""
+    if "success" in table.columns and "timestamp" in table.columns:
+        return "timestamp"  # as OpenFace writes it
+    return time_name(table.columns)
+
+
+def _seconds(table: CsvRows, row: list[str], name: str) -> float | None:
+    """Time of a row; None where a column of that name holds something else, as the hour of a clock."""
+    if "success" in table.columns:
+        return float(_numbers(table, row, (name,), [table.columns[name]])[0]) * TIMES[name]
+    try:
+        return number_in(row[table.columns[name]]) * TIMES[name]
+    except ValueError:
+        return None
 
 
 def _is_face(said: Mapping[str, float]) -> bool:

@@ -94,6 +94,90 @@ def test_later_steps_of_an_older_job_are_not_lost(engine, tmp_path):
     assert resume(out) == ()
 
 
+def nothing_more(out: Path, *options: str) -> Result:
+    """Submit again; no further job may come of it."""
+    jobs = sorted((out / "farm").iterdir())
+    done = farm("submit", out.parent / "spec.toml", "--out", out, "--engine", "slurm", "--json", *options)
+    assert sorted((out / "farm").iterdir()) == jobs
+    return done
+
+
+def test_what_a_task_is_at_is_not_submitted_again(engine, tmp_path):
+    out = submit(tmp_path, "--samples", "0-4", spec=SPEC + RENDERED)
+    engine.doing["job-001"] = Activity(running=frozenset({0}), waiting=frozenset({1}))
+    assert json.loads(nothing_more(out, "--samples", "0-4").stdout) == {"job": None, "tasks": 0}
+    submit(tmp_path, spec=SPEC + RENDERED.replace("19", "29"))
+    assert [chunk.samples for chunk in asked_jobs(DatasetFolder(out))[-1].chunks] == ["5-29"]
+
+
+def test_later_steps_do_not_overtake_tasks_of_another_job(engine, tmp_path):
+    out = submit(tmp_path, "--samples", "0-4", spec=SPEC + RENDERED)
+    engine.doing["job-001"] = Activity(waiting=frozenset({0, 1}))
+    refusal = nothing_more(out, "--steps", "generate,validate,pack").exception
+    assert isinstance(refusal, InputError)
+    assert "tasks of another job are at 6 things that validate needs" in str(refusal)
+    engine.doing["job-001"] = Activity(waiting=frozenset({1}))  # the shard is there
+    generate(open_dataset(out), shards="0", workers=1)
+    submit(tmp_path, "--samples", "5-9", "--steps", "generate,pack", spec=SPEC + RENDERED)
+
+
+@pytest.mark.parametrize(
+    ("step", "option", "folder"), [("pack", "--packed", "p"), ("export", "--model", "m")]
+)
+def test_no_two_steps_write_into_one_folder(engine, tmp_path, step, option, folder):
+    place = ("--steps", step, option, str(tmp_path / folder))
+    out = submit(tmp_path, *place)
+    engine.doing["job-001"] = Activity(steps={step: "pending"})
+    refusal = nothing_more(out, *place).exception
+    assert isinstance(refusal, InputError)
+    assert f"{tmp_path / folder}: the step {step!r} of job-001 is to write there" in str(refusal)
+    submit(tmp_path, *place[:-1], str(tmp_path / "other"))
+
+
+def begin_pack(out: Path, samples: list[int], *options: str) -> None:
+    """Let `pack` begin with samples that are there by name alone; it stops at the first."""
+    for number in samples:
+        (out / "renders" / "000" / f"{number:06d}").mkdir(parents=True, exist_ok=True)
+    done = CliRunner().invoke(app, ["pack", str(out), "--out", f"{out}-packed", *options])
+    assert done.exit_code
+    assert Path(f"{out}-packed", "pack.json").is_file()
+
+
+def test_a_job_that_has_grown_is_told_before_that_its_pack_cannot_go_where_the_first_one_went(
+    engine, tmp_path
+):
+    few = RENDERED.replace("19", "4")
+    out = submit(tmp_path, "--steps", "generate,pack", spec=SPEC + few)
+    begin_pack(out, [0, 1, 2, 3, 4])
+    submit(tmp_path, "--steps", "generate,pack", spec=SPEC + few)  # goes on with it
+    jobs = sorted((out / "farm").iterdir())
+    (tmp_path / "spec.toml").write_text(SPEC + RENDERED)
+    for more in ((), ("--samples", "0-3")):
+        again = ("--out", out, "--engine", "slurm", "--steps", "generate,pack", *more)
+        refusal = farm("submit", tmp_path / "spec.toml", *again).exception
+        assert isinstance(refusal, InputError)
+        assert f"{out}-packed: holds another pack" in str(refusal)
+        assert "--packed" in str(refusal)
+        assert sorted((out / "farm").iterdir()) == jobs
+        submit(
+            tmp_path,
+            "--steps",
+            "generate,pack",
+            *more,
+            "--packed",
+            f"{out}-{len(more)}",
+            spec=SPEC + RENDERED,
+        )
+        shutil.rmtree(out / "farm" / "job-003")
+
+
+def test_a_slices_pack_goes_on_where_that_slice_was_packed(engine, tmp_path):
+    slice_of = ("--samples", "5-6")
+    out = submit(tmp_path, "--steps", "generate,pack", *slice_of, spec=SPEC + RENDERED)
+    begin_pack(out, [5, 6], *slice_of)
+    submit(tmp_path, "--steps", "generate,pack", *slice_of, spec=SPEC + RENDERED)
+
+
 def test_a_dry_run_does_not_narrow_what_is_resumed(engine, tmp_path):
     out = submit(tmp_path, spec=SPEC + RENDERED)
     submit(tmp_path, "--samples", "0-9", "--steps", "generate,train", "--dry-run", spec=SPEC + RENDERED)
@@ -115,10 +199,33 @@ def test_a_narrower_job_does_not_narrow_what_is_resumed(engine, tmp_path):
 def test_of_an_engine_that_does_not_answer_nothing_is_submitted_twice(engine, tmp_path):
     out = submit(tmp_path)
     engine.doing["job-001"] = None
-    refusal = farm("resume", out).exception
-    assert isinstance(refusal, Unanswered)
-    assert "slurm does not say what it does with job-001" in str(refusal)
-    assert not (out / "farm" / "job-002").exists()
+    for again in (farm("resume", out), nothing_more(out)):
+        assert isinstance(again.exception, Unanswered)
+        assert "slurm does not say what it does with job-001" in str(again.exception)
+        assert not (out / "farm" / "job-002").exists()
+
+
+@pytest.mark.parametrize("taken", [True, False])
+def test_records_of_what_failed_go_with_the_job_that_tries_again(engine, tmp_path, taken):
+    out = submit(tmp_path, spec=SPEC + RENDERED)
+    record = out / "quarantine" / "sample-000003"
+    record.mkdir(parents=True)
+    (record / "first.log").write_text("why")
+    seen: list[bool] = []
+
+    def answer(job: Job) -> Submission:
+        seen.append(record.exists())
+        if not taken:
+            raise InputError("sbatch refused: no such partition")
+        return Submission(ids={"generate": "8"})
+
+    engine.submit = answer
+    done = farm("resume", out, "--retry-quarantined")
+    assert seen == [False], "the tasks would leave it out"
+    assert (done.exit_code == 0) == taken
+    assert record.exists() != taken
+    assert taken or (record / "first.log").read_text() == "why"
+    assert not list((out / "tmp").iterdir())
 
 
 def dry_script(folder: Path, step: str, *options: str) -> str:

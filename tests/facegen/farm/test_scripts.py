@@ -4,14 +4,15 @@ import dataclasses
 import json
 import os
 import shlex
+import shutil
 import subprocess
 from collections import Counter
 from pathlib import Path
 
 import pytest
 
-from facegen.errors import InputError
-from facegen.farm import Chunk, Job, Resources, Submission, cut_chunks
+from facegen.errors import InputError, Unanswered
+from facegen.farm import ENGINES, Chunk, Job, Resources, Submission, cut_chunks
 from facegen.farm.openjd import deadline_values, job_template, path_mapping
 from facegen.farm.slurm import Slurm, read_squeue, sbatch_script
 from facegen.number_ranges import sample_numbers
@@ -121,6 +122,68 @@ def test_other_arguments_are_passed_on(argument, tmp_path, monkeypatch):
     assert second.splitlines() == [
         *("--parsable", "--dependency=afterok:41", *ours, str(job.folder / "validate.sh")),
     ]
+
+
+@pytest.mark.parametrize("argument", ["--wait", "-W", "--test-only", "--test", "-d", "--dependency", "--dep"])
+def test_arguments_that_hold_up_or_name_nothing_are_refused(argument):
+    held = dataclasses.replace(JOB, resources=Resources(sbatch_args=(argument,)))
+    with pytest.raises(InputError, match=rf"--sbatch-arg={argument}: "):
+        sbatch_script(held, "validate")
+
+
+@pytest.fixture
+def sbatch(tmp_path, monkeypatch) -> Path:
+    """A stand-in that writes its words down, a line a call, and counts up from 41 after a banner."""
+    told, program = tmp_path / "told.txt", tmp_path / "sbatch"
+    program.write_text(
+        f'#!/bin/bash\necho "Welcome; 7 nodes"\necho "$@" >> {told}\necho "$((40 + $(wc -l < {told})));tux"\n'
+    )
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    return told
+
+
+@pytest.mark.parametrize("given", ["--dependency=afterok:7", "-dafterok:7", "--depend=afterok:7"])
+def test_a_users_dependency_is_the_first_steps_and_the_others_keep_theirs(given, sbatch, tmp_path):
+    steps = ("generate", "validate", "pack")
+    job = dataclasses.replace(JOB, out=str(tmp_path), steps=steps, resources=Resources(sbatch_args=(given,)))
+    assert Slurm().submit(job).ids == {"generate": "41", "validate": "42", "pack": "43"}
+    needs = [
+        [word for word in line.split() if word[:2] == "-d" or "--d" in word]
+        for line in sbatch.read_text().splitlines()
+    ]
+    assert needs == [[given], ["--dependency=afterok:41"], ["--dependency=afterok:42"]]
+    for line, need in zip(Slurm().instructions(job), needs, strict=True):
+        own = need[0].replace("41", "$generate").replace("42", "$validate")
+        assert f" {own} " in line  # not quoted: a shell puts the number there
+
+
+def test_an_answer_without_a_number_is_none(tmp_path, monkeypatch):
+    """Slurm may have taken the job: it is not as if it had refused."""
+    (tmp_path / "sbatch").write_text("#!/bin/sh\necho Welcome\n")
+    (tmp_path / "sbatch").chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    with pytest.raises(Unanswered, match="gave no job's number, but 'Welcome'"):
+        Slurm().submit(dataclasses.replace(JOB, out=str(tmp_path)))
+
+
+@pytest.mark.parametrize("program", ["bash", "openjd"])
+def test_a_reader_of_scripts_that_is_not_done_in_time_is_told(program, tmp_path, monkeypatch):
+    (tmp_path / program).write_text(f"#!{shutil.which('bash')}\nexec {shutil.which('sleep')} 60\n")
+    (tmp_path / program).chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    monkeypatch.setattr("facegen.farm.openjd._openjd", lambda: str(tmp_path / "openjd"))
+    for module, limit in (("shell", "_READ_TIMEOUT_S"), ("openjd", "_CHECK_TIMEOUT_S")):
+        monkeypatch.setattr(f"facegen.farm.{module}.{limit}", 0.2)
+    (tmp_path / "generate.sh").write_text("true\n")
+    engine = ENGINES["slurm" if program == "bash" else "openjd"]
+    with pytest.raises(Unanswered, match=r"has not read .* within 0\.2 s"):
+        engine.check(tmp_path)
+
+
+def test_what_a_site_lets_squeue_say_besides_is_no_task():
+    submission = Submission(ids={"generate": "41"})
+    assert read_squeue("Welcome to 41\n41\n41|x\n41|3|RUNNING|None\n", submission).running == {3}
 
 
 def test_names_with_blanks_and_percents_survive():

@@ -1,7 +1,7 @@
 """Draws: what follows from (spec, sample) alone."""
 
 import tracemalloc
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -116,6 +116,27 @@ def test_recordings_that_nobody_can_play_are_refused_and_played_around(tmp_path)
         recorded=True,
     )
     assert not list(nothing), "what is played is valid"
+
+
+@pytest.mark.parametrize("kind", ["still", "sequence", "playback"])
+def test_shapes_that_a_rig_lacks_are_zero_and_nothing_else_moves(anny, tmp_path, kind):
+    """Eyeballs turn by eyeLook on every head, so these weights are seen."""
+    table = {
+        "still": {},
+        "sequence": {"people": 1, "sequence": {"range_of_motion": {"count": 1, "seconds": 30.0}}},
+        "playback": {"playback": {"recording": str(tmp_path / "take.csv"), "fps": 30}},
+    }[kind]
+    recorded = np.random.default_rng(3).random((20, len(BLENDSHAPES)))
+    (tmp_path / "take.csv").write_text(live_link_csv(recorded, np.arange(20) / 30))
+    lacks = ("mouthSmileLeft", "cheekPuff", "eyeLookUpLeft")
+    plan = plan_dataset(spec(kind=kind, **table))
+    whole, less = (draw_samples(plan, rig, 0) for rig in (anny, replace(anny, missing=lacks)))
+    zero = [BLENDSHAPE_INDEX[name] for name in lacks[:2]]
+    assert (whole.weights[:, zero] > 0).any(axis=0).all()
+    assert not less.weights[:, zero].any()
+    whole.weights[:, zero] = 0.0
+    for field in fields(whole):
+        np.testing.assert_array_equal(getattr(whole, field.name), getattr(less, field.name))
 
 
 def test_neutral_faces_are_neutral_and_look_ahead(anny):

@@ -1,14 +1,19 @@
 """Drawn headsets: one seed gives one layout, cameras stand where ranges say and see the face, labels know them."""
 
+import itertools
+import re
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+import tomli_w
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
+from typer.testing import CliRunner
 
+from facegen.cli import app
 from facegen.conventions import CAMERA_TERMS, CAMERA_TERMS_MIRRORED
 from facegen.errors import InputError
 from facegen.geometry import apply_transform, camera_terms, project
@@ -20,12 +25,13 @@ from facegen.sessions import (
     draw_layout,
     draw_sample_scene,
     drawn_headset,
+    drawn_headsets,
     headset_of,
     layouts,
     sees_enough,
 )
 from facegen.spec import LayoutRanges, Spec, parse_spec
-from facegen.store import Dataset, resolve
+from facegen.store import Dataset, begin, resolve
 
 BASE = load_headset("tracking3").scaled(96)
 SETTINGS = settings(max_examples=25, deadline=None)
@@ -128,6 +134,38 @@ def test_ranges_without_a_headset_are_refused_in_one_sentence(
     table = {"version": 1, "kind": "still", "seed": 5, "people": 2, "render": {"headset": "training9"}}
     with pytest.raises(InputError, match=r"\[layout\] draws left_eye, right_eye, mouth"):
         resolve(parse_spec({**table, "layout": {}}, where="here"), tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("every", "changes", "said"),
+    [
+        (10**6, {"people": 1}, "layout: 0 of 200 drawn headsets .* rig 'anny' .* so of 1 person at least"),
+        (40, {"people": 10**5}, "layout: 5 of 200 drawn headsets .* so of 100000 people at least one"),
+        (40, {"people": 10**5, "layout": {"count": 9}}, None),
+        (40, {"people": 12}, None),
+        (1, {"people": 10**6}, None),
+    ],
+)
+def test_ranges_that_leave_a_person_without_a_headset_are_refused_before_anything_is_written(
+    anny: Rig, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, every: int, changes: dict, said: str | None
+):
+    tries = itertools.count(1)
+    monkeypatch.setattr(drawn_headsets, "sees_enough", lambda headset, rig: next(tries) % every == 0)
+    table = {"version": 1, "kind": "still", "seed": 5, "still": {"neutral": 1, "faces": 0}, "layout": {}}
+    table |= {"render": {"samples": "0-99999" if changes["people"] > 99999 else "0"}} | changes
+    made = resolve(parse_spec(table, where="here"), tmp_path / "out")
+    file = tmp_path / "spec.toml"
+    file.write_text(tomli_w.dumps(table))
+    if said is None:
+        begin(made)
+        assert made.folder.dataset_json.is_file()
+        return
+    with pytest.raises(InputError, match=said):
+        begin(made)
+    assert not (tmp_path / "out").exists()
+    checked = CliRunner().invoke(app, ["spec", "check", str(file)])
+    assert isinstance(checked.exception, InputError)
+    assert re.search(said, str(checked.exception))
 
 
 @pytest.fixture(scope="module")

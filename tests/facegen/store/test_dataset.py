@@ -1,7 +1,9 @@
 """A dataset's folder holds all that says what it is."""
 
+import json
 import re
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +15,7 @@ from facegen.errors import InputError, InvalidData
 from facegen.formats import live_link_csv
 from facegen.headsets import headset_path
 from facegen.spec import load_spec
-from facegen.store import begin, open_dataset, resolve
+from facegen.store import begin, open_dataset, opening, resolve
 
 SPEC = 'version = 1\nkind = "still"\nseed = 1\npeople = 3\n[render]\nheadset = "mine.toml"\n'
 
@@ -111,6 +113,34 @@ def test_what_was_changed_after_a_dataset_was_made_is_named(folder):
     _changed(made.folder.dataset_json, '"label_version": ', '"label_version": 9')
     with pytest.raises(InputError, match="labels of version 9"):
         open_dataset(folder / "out")
+
+
+def test_labels_of_shapes_that_the_rig_lacks_are_none_of_this_version(folder, anny, monkeypatch):
+    spec = load_spec(folder / "spec.toml")
+    whole = resolve(spec, folder / "out")
+    # their rig lacks nothing that labels hold
+    assert (
+        resolve_with(monkeypatch, spec, folder, replace(anny, missing=("eyeLookInLeft",))).hash == whole.hash
+    )
+    lacking = resolve_with(monkeypatch, spec, folder, replace(anny, missing=("tongueOut",)))
+    begin(lacking)
+    assert '"missing": [' in lacking.folder.dataset_json.read_text()
+    assert "It lacks shapes: tongueOut." in lacking.folder.card.read_text()
+    assert open_dataset(folder / "out").hash == lacking.hash != whole.hash
+    described = json.loads(lacking.folder.dataset_json.read_text())
+    del described["rig"]["missing"]
+    lacking.folder.dataset_json.write_text(json.dumps(described | {"spec_hash": whole.hash}))
+    for reading in (open_dataset, lambda out: begin(lacking)):
+        with pytest.raises(
+            InputError, match=r"weights of shapes that its rig 'anny' lacks \(tongueOut\), which"
+        ):
+            reading(folder / "out")
+
+
+def resolve_with(monkeypatch, spec, folder, rig):
+    """A dataset of a spec whose rig is this one."""
+    monkeypatch.setattr(opening, "load_rig", lambda name: rig)
+    return resolve(spec, folder / "out")
 
 
 def test_a_dataset_is_read_by_the_samples_that_it_was_last_asked_for(folder):

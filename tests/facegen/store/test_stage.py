@@ -41,6 +41,20 @@ def test_only_the_dead_and_the_old_are_swept(tmp_path):
         assert sorted((tmp_path / "tmp").iterdir()) == sorted([*kept, stage])
 
 
+def test_a_stage_outlives_that_an_equal_run_removes_the_empty_folder_around_it(tmp_path, monkeypatch):
+    folder, mkdir = DatasetFolder(tmp_path), os.mkdir
+
+    def removed_once_made(path, mode=0o777):
+        mkdir(path, mode)
+        if os.path.basename(path) == "tmp":
+            monkeypatch.setattr(os, "mkdir", mkdir)
+            os.rmdir(path)
+
+    monkeypatch.setattr(os, "mkdir", removed_once_made)
+    with staging(folder, "begin") as stage:
+        assert stage.is_dir()
+
+
 def test_a_zombie_is_dead(tmp_path):
     process = subprocess.Popen([sys.executable, "-c", "pass"])
     deadline = time.monotonic() + 10

@@ -5,7 +5,11 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from regress.runtime.inputs import face_faults
+from tests.regress.exporters.test_outline import drawn_neutral_faces
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "docs" / "examples"
 
@@ -83,16 +87,22 @@ def answer_of(examples: str | tuple[str, ...], stand_in: str, program: str, fold
 
 CALIBRATING = """
     var face = new FaceWeights();
-    foreach (var each in new Func<int, float>[] {
-        i => i * i % 7, i => -1, i => i % 2, i => i % 2 == 0 ? i : 5, i => i == 9 ? float.NaN : i * i % 7 })
-        Console.WriteLine(face.Calibrate(Enumerable.Range(0, 136).Select(each).ToArray()));
+    foreach (var line in System.IO.File.ReadLines(@"%s"))
+        Console.WriteLine(face.Calibrate(line.Split(' ').Select(
+            word => float.Parse(word, System.Globalization.CultureInfo.InvariantCulture)).ToArray()));
     Console.WriteLine(face.Calibrate(new float[135]));
+    Console.WriteLine(face.Calibrate(Enumerable.Repeat(float.NaN, 136).ToArray()));
 """
 
 
-def test_a_neutral_face_without_extent_is_not_taken(tmp_path: Path):
-    """As detectors write a lost one: with it all weights would be NaN from then on."""
-    assert answer_of("FaceWeights.cs", UNITY, CALIBRATING, tmp_path) == ["True", *["False"] * 5]
+def test_a_neutral_face_that_is_no_face_is_not_taken(tmp_path: Path):
+    """In one place, as detectors write a lost one: all weights would be NaN from then on, or wrong."""
+    faces = np.concatenate([drawn_neutral_faces(), np.full((1, 68, 2), -1)]).astype(np.float32)
+    written = tmp_path / "faces.txt"
+    np.savetxt(written, faces.reshape(len(faces), -1), fmt="%.9g")
+    taken = [fault is None for fault in face_faults(faces.astype(np.float64))]
+    answered = answer_of("FaceWeights.cs", UNITY, CALIBRATING % written, tmp_path)
+    assert answered == [*map(str, taken), "False", "False"]
 
 
 MOVING = """
@@ -123,7 +133,7 @@ PLAYING = """
     System.Threading.Thread.CurrentThread.CurrentCulture = new System.Globalization.CultureInfo("de-DE");
     Action<object, string> call = (what, method) => what.GetType().GetMethod(
         method, System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance).Invoke(what, null);
-    Func<int, string> line = first => first + ".5 " + string.Join(" ", Enumerable.Range(1, 135).Select(i => i * i % 7));
+    Func<int, string> line = first => first + ".5 " + string.Join(" ", Enumerable.Range(1, 135).Select(i => i * i % 5));
     foreach (var text in new[] { line(0) + "\\r\\n" + line(1) + "\\n" + line(2) + "\\n", "1 2 3" }) {
         Unity.InferenceEngine.Worker.Given.Clear();
         var face = new FaceWeights();

@@ -76,7 +76,11 @@ def test_the_onnx_script(folder: Path, quick_model, neutral):
 
 
 def test_the_live_loop(folder: Path, quick_model_folder: Path, quick_model):
-    out = _run(folder, sys.executable, "live.py", quick_model_folder, given=_lines())
+    no_faces = np.stack([FACES[0] * [-1, 1], FACES[0] * [1, -1]])
+    given = _lines(no_faces) + _lines()
+    out = _run(folder, sys.executable, "live.py", quick_model_folder, given=given)
+    assert out.startswith("no face\n" * 2), "nor is either taken for the neutral face"
+    out = out.removeprefix("no face\n" * 2)
     weights = quick_model.calibrate(FACES[:1]).predict(FACES)
     for line, row in zip(out.splitlines(), weights, strict=True):
         shown = json.loads(line.replace("'", '"'))

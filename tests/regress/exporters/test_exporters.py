@@ -269,6 +269,18 @@ def test_exports_without_a_neutral_face_are_what_they_were():
     assert {name: hashlib.sha256(content).hexdigest() for name, content in made.items()} == PAPER
 
 
+@pytest.mark.parametrize("calibrated", [None, "stable"])
+def test_files_say_which_units_serve_and_the_paper_s_stay(calibrated):
+    formula = formula_of(random_model(np.random.default_rng(9), calibrated=calibrated))
+    for recipe in ("paper", "default"):
+        about = {**formula.about, "recipe": recipe}
+        made = export_c(replace(formula, about=about), "face")
+        made |= export_javascript(replace(formula, about=about), "face")
+        for name in ("face.h", "face.js", "face.d.ts"):
+            told = "one unit: multiply shares" in " ".join(made[name].decode().replace("*", " ").split())
+            assert told == (calibrated is not None or recipe != "paper"), name
+
+
 def test_onnx_is_one_plain_graph(model):
     graph = build_graph(formula_of(model))
     assert {node.op_type for node in graph.graph.node} <= OPERATORS

@@ -91,6 +91,10 @@ CASES = {
         ["--model", "headset-tracking3", "--camera", "0"],
         "needs its name before it, as in left_eye=0",
     ),
+    "a headset's address without a name": (
+        ["--model", "headset-tracking3", "--camera", "rtsp://me:pass@camera.local/live"],
+        "--camera rtsp://camera.local/live: a headset's camera needs its name before it, as in left_eye=rtsp://camera.",
+    ),
     "a camera that the headset has not": (["--camera", "nose=0"], "no camera 'nose'"),
     "a camera twice": (["--camera", MOUTH, "--camera", MOUTH], "given twice"),
     "a detector for a headset": (["--camera", MOUTH, "--detector", "mediapipe"], "finds 68 points"),

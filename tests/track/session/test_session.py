@@ -318,13 +318,25 @@ def test_a_disk_that_gets_full_ends_the_recording_of_the_page_and_nothing_else()
         (answer,) = session.answer(sample)
     assert not session.moment(answer).settings["recording"]
     session.close()
-    assert said.count("track-001.csv: no space left") == 1
+    assert [sentence for sentence in said if "no space left" in sentence] == [
+        "kept ends here, and the rest goes on: track-001.csv: no space left"
+    ]
     assert len(session.sinks[0].samples) == 6
+
+
+def test_a_disk_that_gets_full_ends_one_recording_of_the_command_line_and_is_told_at_the_end_again():
+    said = []
+    session = new_session(said=said)
+    kept = session.sinks[0]
     session.sinks.append(Filling())
-    for sample in frames(6, 8):
+    for sample in frames(0, 6):
         session.answer(sample)
-    with pytest.raises(OutputError):  # what was asked for on the command line is not given up
-        session.answer(frames(8, 9)[0])
+    assert session.sinks == [kept]
+    with pytest.raises(OutputError, match=r"track-001\.csv: no space left"):  # the exit code says it as well
+        session.close()
+    assert kept.closed
+    assert len(kept.samples) == 6
+    assert said == ["kept ends here, and the rest goes on: track-001.csv: no space left"]
 
 
 @pytest.mark.parametrize(

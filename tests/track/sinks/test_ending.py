@@ -1,5 +1,6 @@
 """How a run ends: by Ctrl-C with whole recordings, and with those that can be written where one cannot."""
 
+import os
 import signal
 import subprocess
 import sys
@@ -55,6 +56,45 @@ def test_ctrl_c_leaves_whole_recordings(tmp_path: Path):
         document, _ = open_glb(tmp_path / file)
         clock = document["animations"][-1]["samplers"][0]["input"]
         assert document["accessors"][clock]["count"] <= len(rows) - 1
+
+
+def on_a_small_disk(tmp_path: Path, *words: str, count: int = 60) -> subprocess.CompletedProcess:
+    """`track` over so many faces, where no file gets larger than 10,000 bytes."""
+    import resource
+
+    faces = read_frames(ROOT / "docs" / "samples" / "talking-face.csv").points[:count]
+    return subprocess.run(
+        [sys.executable, "-m", "track", "--camera", "-", "--fast", "--no-page", *words],
+        input="".join(" ".join(f"{value:.3f}" for value in face.ravel()) + "\n" for face in faces),
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000)),
+        env={**os.environ, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(tmp_path / "none")},
+        **{"capture_output": True, "text": True, "cwd": tmp_path, "check": False},
+    )
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="makes a small disk of a limit")
+@pytest.mark.parametrize("name", ["csv", "livelink-csv"])
+def test_a_table_on_a_full_disk_keeps_its_whole_rows_and_all_else_goes_on(name: str, tmp_path: Path):
+    with receiver() as taken:
+        to_others = f"vmc:127.0.0.1:{taken.getsockname()[1]}"
+        run = on_a_small_disk(tmp_path, "--to", f"{name}:a.csv", "--to", to_others)
+    assert run.returncode == 74, run.stderr
+    assert f"{name} to a.csv ends here, and the rest goes on: a.csv: " in run.stderr
+    assert f"recorded {name} to a.csv\n" in run.stderr
+    assert "60 frames, " in run.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["a.csv"]
+    text = (tmp_path / "a.csv").read_text()
+    assert 8_000 < len(text) <= 10_000
+    assert text.endswith("\n")
+    assert len({line.count(",") for line in text.splitlines()}) == 1
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="makes a small disk of a limit")
+def test_a_run_whose_only_recording_has_ended_ends(tmp_path: Path):
+    run = on_a_small_disk(tmp_path, "--record", "a.csv", count=200)
+    assert run.returncode == 74, run.stderr
+    assert "200 frames" not in run.stderr
+    assert run.stderr.splitlines()[-1].startswith("track: a.csv: ")
 
 
 @pytest.mark.parametrize("order", [1, -1])

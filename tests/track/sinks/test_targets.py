@@ -1,5 +1,7 @@
 """What stands behind ``--to``: names, addresses, options, and receivers that are away."""
 
+import contextlib
+import re
 import socket
 import time
 
@@ -8,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.track.sinks.receivers import acted, lost, received, receiver
+from track.cli.sending import open_sinks
 from track.errors import InputError
 from track.sinks.targets import SINKS, Target, open_sink, parse_target
 from track.sinks.udp import resolved
@@ -32,6 +35,7 @@ UDP = [name for name, kind in SINKS.items() if kind.port is not None]
                 options={"angles": "half-turns", "subject": "Ann B:1"},
             ),
         ),
+        ("vmc:[fe80::1%br-lan.100]", Target(name="vmc", host="fe80::1%br-lan.100", port=39539)),
         ("vmc,names=vrm1", Target(name="vmc", host="127.0.0.1", port=39539, options={"names": "vrm1"})),
         ("csv:takes/a, b=c.csv", Target(name="csv", place="takes/a, b=c.csv")),
         ("csv:C:\\takes\\a.csv", Target(name="csv", place="C:\\takes\\a.csv")),
@@ -64,6 +68,29 @@ def test_what_is_refused(text, said):
         parse_target(text)
     assert said in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+SECRET = "k" * 22 + "." + "s" * 22
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"{name}{place}#{SECRET}{behind}"
+        for name in ("room:", "room,", "romm:", "vmc:", "")
+        for place in ("https://me:sss@127.0.0.1:9/room/x", "127.0.0.1:9/room/x", "[::1")
+        for behind in ("", ",cert=c.pem", ",crt=c.pem", ",names=vrm2")
+    ],
+)
+def test_no_secret_of_a_link_is_told(text):
+    said: list[str] = []
+    with contextlib.ExitStack() as closing:
+        try:
+            open_sinks([("--to", parse_target(text))], said.append, closing, closing)
+        except InputError as refused:
+            said.append(str(refused))
+    assert said
+    assert not re.search("sss|kkk", " ".join(said))
 
 
 @given(text=st.text(max_size=40) | st.builds("vmc:{}".format, st.text(max_size=40)))

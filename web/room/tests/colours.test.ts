@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { BoxGeometry, Group, Mesh, MeshStandardMaterial } from "three";
 
-import { CLOTHES, coloursOf, dye, written } from "../colours.js";
+import { CLOTHES, coloursOf, dye, written } from "../figure/colours.js";
 
 const ADA = { number: 3, id: "0123456789abcdef" };
 const BEN = { number: 4, id: "fedcba9876543210" };

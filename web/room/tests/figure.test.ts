@@ -6,9 +6,9 @@ import { test } from "node:test";
 import { Vector3 } from "three";
 
 import { Avatar } from "../../avatar/index.js";
-import { plainHead } from "../body.js";
-import { Figure } from "../figure.js";
-import { REST } from "../protocol.js";
+import { plainHead } from "../figure/body.js";
+import { Figure } from "../figure/figure.js";
+import { REST } from "../line/protocol.js";
 
 /** How far the head and the body under it are from where they rest, once this came. */
 function moved(head_m: readonly [number, number, number]): { head: number[]; apart: number } {

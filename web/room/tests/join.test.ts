@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 Object.assign(globalThis, { self: globalThis, isSecureContext: true });
-const { sentence } = await import("../join.js");
+const { sentence } = await import("../door/join.js");
 
 test("a refusal of the system, of the browser, and a device that is not there", () => {
   const says = (message: string, name: string): string => sentence(new DOMException(message, name), "load the page again");

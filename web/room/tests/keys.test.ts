@@ -10,7 +10,7 @@ class HTMLElement {
   }
 }
 Object.assign(globalThis, { HTMLElement });
-const { isMeant } = await import("../keys.js");
+const { isMeant } = await import("../keys/keys.js");
 
 const pressed = (within: string, held: object = {}): boolean =>
   isMeant({ target: new HTMLElement(within), ctrlKey: false, metaKey: false, altKey: false, ...held } as unknown as KeyboardEvent);

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
-import { Layout, type NamedNode } from "../layout.js";
+import { Layout, type NamedNode } from "../scene/layout.js";
 
 /** Nodes of a .glb file, of which those with names stand at the top. */
 function nodesOf(name: string): NamedNode[] {

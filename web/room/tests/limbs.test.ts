@@ -8,7 +8,7 @@ import { test } from "node:test";
 import type { VRM } from "@pixiv/three-vrm";
 import { Object3D, Vector3 } from "three";
 
-import { Limbs } from "../limbs.js";
+import { Limbs } from "../figure/limbs.js";
 
 const CLAP = 6;
 const SIDES = [["Left", 1], ["Right", -1]] as const;

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, mock, test } from "node:test";
 
-import { REST } from "../protocol.js";
+import { REST } from "../line/protocol.js";
 
 /** A socket that answers nothing by itself. */
 class Socket extends EventTarget {
@@ -40,7 +40,7 @@ let listeners: EventTarget;
 Object.assign(globalThis, { WebSocket: Socket, addEventListener: (name: string, listener: () => void) => listeners.addEventListener(name, listener) });
 let now = 0;
 performance.now = () => now;
-const { Line } = await import("../line.js");
+const { Line } = await import("../line/line.js");
 
 /** Time goes on, and a state goes out each 33 ms of it. */
 function move(line: InstanceType<typeof Line>, ms: number): void {

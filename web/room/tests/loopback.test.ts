@@ -59,7 +59,7 @@ Object.assign(globalThis, {
 });
 
 Object.assign(globalThis, { addEventListener: () => undefined });
-const { Voice } = await import("../voice.js");
+const { Voice } = await import("../voice/voice.js");
 const settled = (): Promise<void> => new Promise((resolve) => setImmediate(resolve));
 mock.timers.enable({ apis: ["setTimeout"] });
 

@@ -3,8 +3,8 @@
 import assert from "node:assert/strict";
 import { beforeEach, mock, test } from "node:test";
 
-import { Mesh } from "../mesh.js";
-import type { Person } from "../texts.js";
+import type { Person } from "../line/texts.js";
+import { Mesh } from "../voice/mesh.js";
 
 class Connection extends EventTarget {
   static made: Connection[] = [];

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 Object.assign(globalThis, { self: globalThis });
-const { HANG_MS, SpeakingSign } = await import("../microphone.js");
+const { HANG_MS, SpeakingSign } = await import("../voice/microphone.js");
 
 const FRAME_MS = 20;
 

@@ -3,8 +3,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { newsOf } from "../news.js";
-import type { Person } from "../texts.js";
+import type { Person } from "../line/texts.js";
+import { newsOf } from "../page/news.js";
 
 const ada = { number: 1, id: "a", name: "Ada", muted: false, own: "d".repeat(64), shares: true } as Person;
 const wants = { shares: true, wears: true };

@@ -3,8 +3,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { Playback, STALE_MS } from "../playback.js";
-import { REST, decode, encode, type Message } from "../protocol.js";
+import { REST, decode, encode, type Message } from "../line/protocol.js";
+import { Playback, STALE_MS } from "../people/playback.js";
 
 /** Numbers that look random and are the same every time (mulberry32). */
 function numbers(seed: number): () => number {

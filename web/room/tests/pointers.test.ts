@@ -4,10 +4,10 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Scene, Vector3, type Mesh } from "three";
 
-import type { Figure } from "../figure.js";
-import type { Place } from "../place.js";
-import { Pointers } from "../pointers.js";
-import { POINTER, type Message } from "../protocol.js";
+import type { Figure } from "../figure/figure.js";
+import { POINTER, type Message } from "../line/protocol.js";
+import type { Place } from "../scene/place.js";
+import { Pointers } from "../scene/pointers.js";
 
 test("nothing of a pointer stays, on the graphics card neither", () => {
   const scene = new Scene();

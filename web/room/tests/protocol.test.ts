@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
-import { decode, encode, ProtocolError, REST, unpack, type Message } from "../protocol.js";
+import { decode, encode, ProtocolError, REST, unpack, type Message } from "../line/protocol.js";
 
 const vectors = JSON.parse(readFileSync(process.env["VECTORS"]!, "utf8"));
 const number = (value: unknown): unknown =>

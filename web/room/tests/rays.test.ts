@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Mesh, Raycaster, SphereGeometry, TorusKnotGeometry, Vector3 } from "three";
 
-import { Rays } from "../rays.js";
+import { Rays } from "../scene/rays.js";
 
 const knot = new Mesh(new TorusKnotGeometry(1, 0.3, 128, 24));
 knot.position.set(0.5, 1, -2);

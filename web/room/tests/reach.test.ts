@@ -5,8 +5,8 @@ import { test } from "node:test";
 
 import { Object3D, Quaternion, Vector3 } from "three";
 
-import { Limbs } from "../limbs.js";
-import { bend } from "../reach.js";
+import { Limbs } from "../figure/limbs.js";
+import { bend } from "../figure/reach.js";
 
 const [UPPER_M, LOWER_M] = [0.28, 0.25];
 const SIDES = [1, -1] as const;

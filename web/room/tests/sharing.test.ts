@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test, mock } from "node:test";
 
-import type { Person } from "../texts.js";
+import type { Person } from "../line/texts.js";
 
 class Connection {
   static made: Connection[] = [];
@@ -27,7 +27,7 @@ class HTMLCanvasElement {}
 const canvas = { getContext: () => ({ drawImage: () => undefined }), captureStream: () => stream };
 Object.assign(globalThis, { HTMLCanvasElement, RTCPeerConnection: Connection, document: { createElement: () => canvas } });
 mock.timers.enable({ apis: ["setTimeout", "setInterval"] });
-const { Sharing } = await import("../sharing.js");
+const { Sharing } = await import("../sharing/sharing.js");
 
 const person = (id: string, shares = false): Person => ({ id, number: 1, visit: "v", present: true, shares }) as Person;
 

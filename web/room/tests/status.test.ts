@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { NOTICE_MS, Status } from "../status.js";
+import { NOTICE_MS, Status } from "../page/status.js";
 
 const FRAME_MS = 33;
 

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import type { Person } from "../texts.js";
+import type { Person } from "../line/texts.js";
 
 /** Takes every call and every property of what a browser has and Node has not. */
 class Anything {
@@ -41,7 +41,7 @@ class Gain extends Anything {
 Object.assign(globalThis, { GainNode: Gain });
 
 Object.assign(globalThis, { addEventListener: () => undefined });
-const { Voice } = await import("../voice.js");
+const { Voice } = await import("../voice/voice.js");
 
 const person = (muted: boolean): Person => ({
   number: 1,
@@ -79,4 +79,39 @@ test("ears are where the head is, also in a browser that has the old calls alone
   voice.listen({ x: 1, y: 1.6, z: -2 }, Math.PI / 2);
   assert.deepEqual(said[0], [1, 1.6, -2]);
   assert.deepEqual(said[1]!.map(Math.round), [1, 0, 0, 0, 1, 0]);
+});
+
+test("of whom one cannot hear for ten seconds it is told, and why", () => {
+  const voice = new Voice(() => undefined);
+  let state = "connecting";
+  voice.state = () => state as RTCPeerConnectionState;
+  const told = (now: number): [boolean, boolean, string] => [voice.watch(now), voice.lacks("b"), voice.word];
+  voice.configure([], false);
+  voice.meet([{ ...person(false), id: "a" }, person(false)], "a");
+  assert.deepEqual(told(0), [false, false, ""]);
+  assert.deepEqual(told(9900), [false, false, ""]);
+  const [anew, lacks, word] = told(10_100);
+  assert.deepEqual([anew, lacks], [true, true]);
+  assert.match(word, /from Ben: .*no relay/);
+  assert.equal(told(10_200)[0], false);
+  voice.configure([{ urls: ["stun:s", "turn:t"] }], false);
+  assert.match(voice.word, /not even by the room's relay/);
+  state = "connected";
+  assert.deepEqual(told(11_000), [true, false, ""]);
+  state = "disconnected"; // finds its way again in less
+  told(12_000);
+  state = "connected";
+  told(20_000);
+  state = "failed";
+  assert.deepEqual(told(23_000), [false, false, ""]);
+});
+
+test("nobody waits for a voice that is not there", () => {
+  const voice = new Voice(() => undefined);
+  voice.state = () => "new";
+  for (const less of [{ voice: false }, { muted: true }, { present: false }, { replayed: true }]) {
+    voice.meet([{ ...person(false), ...less }], "a");
+    voice.watch(0);
+    assert.deepEqual([voice.watch(60_000), voice.lacks("b")], [false, false]);
+  }
 });

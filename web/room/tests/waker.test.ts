@@ -10,7 +10,7 @@ Object.assign(globalThis, {
   addEventListener: (name: string, act: () => void) => page.addEventListener(name, act),
   removeEventListener: (name: string, act: () => void) => page.removeEventListener(name, act),
 });
-const { Waker } = await import("../waker.js");
+const { Waker } = await import("../voice/waker.js");
 
 class Context extends EventTarget {
   state = "suspended";

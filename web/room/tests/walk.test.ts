@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
-import { Layout } from "../layout.js";
+import { Layout } from "../scene/layout.js";
 
 let page: EventTarget;
 Object.assign(globalThis, {
@@ -11,7 +11,7 @@ Object.assign(globalThis, {
   addEventListener: (name: string, act: (event: Event) => void) => page.addEventListener(name, act),
   document: { querySelector: () => null },
 });
-const { Walk } = await import("../walk.js");
+const { Walk } = await import("../scene/walk.js");
 
 class Canvas extends EventTarget {
   readonly clientWidth = 900;

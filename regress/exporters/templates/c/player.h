@@ -8,7 +8,8 @@ typedef struct {
 /* Calibrates a player to the neutral face: at rest, mouth closed, eyes open, by the detector that will be used.
  *
  * points: as below. All zeros: the player is not known any longer.
- * Gives 1; or 0 where a point is missing, that is not finite: the player then stays as it was.
+ * Gives 1; or 0 where a point is missing, that is not finite, and where points are no face: on one line, in a mirror
+ * (left and right exchanged), or with y upward. The player then stays as it was.
  */
 int ${name}_neutral(${name}_player *player, const float points[${GUARD}_POINTS][2]);
 
@@ -16,8 +17,9 @@ int ${name}_neutral(${name}_player *player, const float points[${GUARD}_POINTS][
  *
  * player: who it is, after ${name}_neutral: the face is compared with the neutral one, which is far better than a
  *     face alone. NULL, or a player that knows nothing: other networks, made for a face alone, answer.
- * points: the 68 landmarks in iBUG order, x to the right and y down, in pixels or any other unit, anywhere in
- *     the picture. A row is (x, y). All must be finite; a face without width gives NaN.
+ * points: the 68 landmarks in iBUG order, x to the right and y down, anywhere in the picture. x and y have one unit:
+ *     multiply shares of a picture by its width and height first. A row is (x, y). All must be finite; a face without
+ *     width gives NaN. A face in a mirror, or with y upward, is not told from others here: its weights are wrong.
  * weights: filled in, in the order of ${name}_names.
  *
  * Keeps no state but the player's and allocates nothing, so threads may call it at once. Each needs $stack_kb kB of stack,

@@ -11,7 +11,7 @@ $name_types
 /** Avatar weights, each within [0, 1], of one face; all NaN where a landmark is missing.
  *
  * @param points the 68 landmarks in iBUG order, x to the right and y down, in pixels or any other unit: 136 numbers
- * (x, y, x, y, ...) or 68 pairs
+ * (x, y, x, y, ...) or 68 pairs${units}
  * @param weights filled in and given back, in the order of `names`; a new array by default
  */
 export declare function predict(

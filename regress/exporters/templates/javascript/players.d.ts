@@ -3,7 +3,8 @@
  *
  * @param neutral the face at rest, mouth closed and eyes open, by the detector that will be used, points as `predict`
  * takes them; all zeros for none, which gives `predict` itself. Each player keeps a neutral face of its own
- * @throws RangeError where a point of the neutral face is missing
+ * @throws RangeError where a point of the neutral face is missing, and where its points are on one line, in a mirror
+ * (left and right exchanged), or have y upward
  */
 export declare function player(
   neutral: ArrayLike<number> | ArrayLike<ArrayLike<number>>,
