@@ -6,7 +6,9 @@ from dataclasses import dataclass, field
 from room.errors import NotAllowed
 
 MOST_KEPT_BYTES = 512 * 1024**2
-"""Of all own avatars of one server together: 16 of the largest, or some fifty of usual ones."""
+"""Of all own avatars of one server together: 16 of the largest, or some fifty of usual ones.
+
+No room takes more than it leaves to all others: one alone has half, and a second one half of what is left."""
 
 Wearer = tuple[str, str]
 """A room's name and a person's id."""
@@ -47,18 +49,32 @@ class AvatarStore:
         Raises
         ------
         NotAllowed
-            If there is no room for it; they wear none then.
+            If there is no room for it, or their room has its share; they wear none then.
         """
         self.drop(wearer)
         digest = digest_of(content)
         if digest not in self._kept:
-            if self.kept_bytes + len(content) > self._most_bytes:
+            left = self._most_bytes - self.kept_bytes - len(content)
+            if left < 0:
                 raise NotAllowed(
                     "this server keeps as many own avatars as it can; try again later", again=True
+                )
+            if self._bytes_of(wearer[0]) + len(content) > left:
+                raise NotAllowed(
+                    "this room has its share of the own avatars that this server keeps; bring a smaller one, or "
+                    "try again later",
+                    again=True,
                 )
             self._kept[digest] = _Kept(content)
         self._kept[digest].wearers.add(wearer)
         return digest
+
+    def _bytes_of(self, room: str) -> int:
+        return sum(
+            len(kept.content)
+            for kept in self._kept.values()
+            if any(place == room for place, _ in kept.wearers)
+        )
 
     def get(self, digest: str, room: str) -> bytes | None:
         """An avatar that somebody wears in this room; None where nobody does."""

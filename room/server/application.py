@@ -114,6 +114,7 @@ class Rooms:
         application.router.add_get("/static/{path:.+}", self._file)
         application.on_response_prepare.append(protect)
         application.on_shutdown.append(self._close)
+        application.on_cleanup.append(self._let_go)
         application.cleanup_ctx.append(self._reaching)
         application.cleanup_ctx.append(self._ticking)
         return application
@@ -170,3 +171,6 @@ class Rooms:
 
     async def _close(self, application: web.Application) -> None:
         await self._sockets.close()
+
+    async def _let_go(self, application: web.Application) -> None:
+        await self._avatar_requests.close()

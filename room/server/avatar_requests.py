@@ -10,9 +10,10 @@ from collections.abc import Callable
 
 from aiohttp import web
 
-from room.avatars import AvatarStore, check_avatar
+from room.avatars import AvatarStore
 from room.avatars.check import MOST_AVATAR_BYTES
 from room.errors import FormatError, NotAllowed
+from room.server.avatar_checks import AvatarChecks
 from room.server.headers import same_origin
 from room.server.keys import Keys
 from room.server.limits import MOST_UPLOADS, MOST_UPLOADS_A_ROOM, UPLOADS_BURST, UPLOADS_PER_S, Bucket
@@ -50,7 +51,7 @@ class AvatarRequests:
     ) -> None:
         self._keys, self._store, self._room_of, self._origins = keys, store, room_of, origins
         self._uploading: set[tuple[str, str]] = set()
-        self._checking = asyncio.Lock()
+        self._checks, self._checking = AvatarChecks(), asyncio.Lock()
 
     async def take(self, request: web.Request) -> web.Response:
         """An upload."""
@@ -73,8 +74,7 @@ class AvatarRequests:
         self._uploading.add(wearer)
         try:
             content = await asyncio.wait_for(_body(request), UPLOAD_S)
-            async with self._checking:  # one after the other, beside the loop: who meets notices nothing
-                await asyncio.to_thread(check_avatar, content)
+            await self._checks.check(content)
             if room.meeting.seat(seat.id) is not seat:
                 raise web.HTTPForbidden(text="you have left the room\n")
             _refuse_undressed(room, seat)  # meanwhile
@@ -104,6 +104,10 @@ class AvatarRequests:
         headers = {"Cache-Control": "no-store"}  # it is somebody's; the page holds it while they are there
         return web.Response(body=content, content_type="model/gltf-binary", headers=headers)
 
+    async def close(self) -> None:
+        """Check no more."""
+        await self._checks.close()
+
     async def _transferred(self, digest: str, room: LiveRoom | None) -> bytes | None:
         """From another server of the room, checked as if it had been brought here; None where that cannot be."""
         content = await room.avatars.transferred(digest) if room else None
@@ -112,7 +116,7 @@ class AvatarRequests:
         try:
             async with self._checking:
                 if self._store.get(digest, room.name) is None:  # who waited for the same may have kept it
-                    await asyncio.to_thread(check_avatar, content)
+                    await self._checks.check(content)
                     room.avatars.keep(digest, content)
         except (FormatError, NotAllowed):
             return None

@@ -5,6 +5,7 @@ Each voice stays by itself, as it comes from its own avatar's head: Janus passes
 
 import asyncio
 from collections.abc import Callable
+from itertools import islice
 
 from room.protocol.answers import Answer, Engine, Heard, Signal
 from room.protocol.texts import Candidate, Description
@@ -13,7 +14,7 @@ from room.server.janus_words import Jsep, RoomWord, Word
 from room.server.voice_room import VoiceRoom
 
 MOST_VOICES = 64
-"""Voices that one person is brought: 40 kbit/s each while somebody speaks. Those who came later are not heard."""
+"""Voices that one person is brought: 40 kbit/s each while somebody speaks. Those who came later wait until some go."""
 
 MOST_WAITING = 256
 """What a page may say to its lines before they have taken it in: a line has ten addresses."""
@@ -45,7 +46,7 @@ class PersonVoice:
         self._janus, self._room, self._id, self._say = janus, room, id, say
         self._up = self._down = 0
         self._feed: int | None = None
-        self._wanted: dict[int, str] = {}
+        self._there: dict[int, str] = {}
         self._have: set[int] = set()
         self._offered = False
         self._mids: tuple[str, ...] = ()
@@ -85,8 +86,10 @@ class PersonVoice:
             await asyncio.sleep(AGAIN_S)
 
     async def _live(self) -> None:
+        while not self._waiting.empty():  # what was said of the lines before would end or disturb these
+            self._waiting.get_nowait()
         self._up = self._down = 0
-        self._feed, self._wanted, self._have, self._offered = None, {}, set(), False
+        self._feed, self._there, self._have, self._offered = None, {}, set(), False
         self._mids, self._told_muted = (), False
         self._up = await self._janus.attach(self._told)
         joined = await self._enter()
@@ -172,11 +175,11 @@ class PersonVoice:
         """Keep who speaks into this room."""
         for publisher in word.publishers:
             mid = next((stream.mid for stream in publisher.streams if stream.type == "audio"), None)
-            if mid is not None and len(self._wanted) < MOST_VOICES:
-                self._wanted[publisher.id] = mid
+            if mid is not None:
+                self._there[publisher.id] = mid
         for gone in (word.leaving, word.unpublished):
             if isinstance(gone, int):
-                self._wanted.pop(gone, None)
+                self._there.pop(gone, None)
 
     async def _follow(self) -> None:
         """Have Janus bring what is wanted; the page answers one change before the next is offered."""
@@ -184,10 +187,11 @@ class PersonVoice:
             await self._moderate()
         if self._offered:
             return
-        come, gone = self._wanted.keys() - self._have, self._have - self._wanted.keys()
+        wanted = dict(islice(self._there.items(), MOST_VOICES))
+        come, gone = wanted.keys() - self._have, self._have - wanted.keys()
         if not come and not gone:
             return
-        streams = [{"feed": feed, "mid": self._wanted[feed]} for feed in sorted(come)]
+        streams = [{"feed": feed, "mid": wanted[feed]} for feed in sorted(come)]
         if not self._down:
             self._down = await self._janus.attach(self._told)
             body: Body = {"request": "join", "ptype": "subscriber", "room": self._room.number}
@@ -197,7 +201,7 @@ class PersonVoice:
             body |= {"subscribe": streams} if come else {}
             body |= {"unsubscribe": [{"feed": feed} for feed in sorted(gone)]} if gone else {}
         word = await self._request(self._down, body)
-        self._have = set(self._wanted)
+        self._have = set(wanted)
         if word.jsep:
             self._offered = True
             heard = {

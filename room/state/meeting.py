@@ -7,6 +7,7 @@ import hashlib
 
 from room.errors import NotAllowed
 from room.protocol import check
+from room.protocol.accounts import MOST_RESIDENTS
 from room.protocol.answers import Person
 from room.protocol.texts import Join, Moderate
 from room.protocol.tick import pack
@@ -16,6 +17,9 @@ from room.state.seat import Seat
 
 KEEP_S = 30.0
 """A place is kept this long for somebody whose connection broke: a laptop's change of networks takes ten."""
+
+MOST_BEYOND = 8
+"""Places beside the others, for moderators alone: who fills a room cannot keep out who would empty it."""
 
 ELSEWHERE_S = 5.0
 """Longer wait for somebody of another process: that process says first that their place is free."""
@@ -32,7 +36,7 @@ class Meeting:
     Parameters
     ----------
     most_people
-        Places, kept ones among them.
+        Places, kept ones among them; moderators have `MOST_BEYOND` more.
     process
         Name of the process that this is, where several carry the room (`room.state.accounts`).
     first_number
@@ -114,8 +118,7 @@ class Meeting:
         if seat is None:
             if self.locked and not moderator:
                 raise NotAllowed("the room is locked; ask a moderator to open it", again=True)
-            if sum(not other.replayed for other in self._seats.values()) >= self.most_people:
-                raise NotAllowed(f"the room is full; it has {self.most_people} places", again=True)
+            self._refuse_full(moderator=moderator)
             seat = Seat(
                 number=self._free_number(int(id, 16)),
                 id=id,
@@ -133,6 +136,11 @@ class Meeting:
         # another process may have them, and not have told yet: their own clock then says which coming is the later one
         seat.home, seat.entry = self.process, max(seat.entry + 1, join.at_ms)
         return seat
+
+    def _refuse_full(self, *, moderator: bool) -> None:
+        most = min(self.most_people + MOST_BEYOND, MOST_RESIDENTS) if moderator else self.most_people
+        if sum(not other.replayed for other in self._seats.values()) >= most:
+            raise NotAllowed(f"the room is full; it has {most} places", again=True)
 
     def replay(self, *, id: str, name: str, avatar: str, number: int) -> Seat:
         """Give a place to somebody out of a recording, however full the room is; ``number`` is the recorded one."""

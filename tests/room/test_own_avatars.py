@@ -33,6 +33,7 @@ from room.gltf.moved import (
 from room.gltf.numbers import MOST_NUMBERS
 from room.protocol.answers import Changed, Left, Notice
 from room.server.application import STATIC
+from room.server.avatar_checks import AvatarChecks
 from room.server.limits import MOST_UPLOADS_A_ROOM, UPLOADS_BURST
 from tests.room.avatars import BINARY, POINTS, avatar, png, textured
 from tests.room.guests import Guest, Place, open_room
@@ -367,7 +368,7 @@ def test_any_byte_may_be_another(place, byte):
 
 
 def test_the_store_keeps_each_avatar_once_and_no_more_than_it_may():
-    store = AvatarStore(most_bytes=10)
+    store = AvatarStore(most_bytes=13)
     digest = store.put(b"abcdef", ("lab", "ada"))
     assert store.put(b"abcdef", ("lab", "ben")) == digest == hashlib.sha256(b"abcdef").hexdigest()
     assert store.kept_bytes == 6
@@ -380,6 +381,17 @@ def test_the_store_keeps_each_avatar_once_and_no_more_than_it_may():
     store.drop(("lab", "ben"))
     assert store.kept_bytes == 0
     assert store.put(b"ghijkl", ("lab", "cy")) != digest
+
+
+@given(st.lists(st.tuples(st.sampled_from("abc"), st.integers(0, 20), st.integers(1, 40)), max_size=60))
+def test_no_room_keeps_others_from_the_store(brought):
+    """However three of them fill it, an eighth is left."""
+    store = AvatarStore(most_bytes=160)
+    for number, (room, person, size) in enumerate(brought):
+        with suppress(NotAllowed):
+            store.put(number.to_bytes(1, "little") * size, (room, str(person)))
+        assert store.kept_bytes <= 140
+    store.put(b"x" * 10, ("late", "ada"))
 
 
 def _bearer(place: Place, guest: Guest | None = None, key: str = "") -> dict[str, str]:
@@ -462,6 +474,49 @@ def test_one_may_take_it_off_and_a_moderator_may_for_good():
         assert (await bring(place, again, avatar()))[0] == 403, "the same person, whom one click brought back"
 
     meet(run)
+
+
+def test_avatars_are_checked_by_another_process(monkeypatch):
+    """A parser of this one would halt all rooms."""
+    monkeypatch.setattr("facegen.formats.gltf_container.parse_json", None)
+
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        assert (await bring(place, ada, avatar()))[0] == 200
+        assert (await bring(place, ada, textured(b"<svg>")))[0] == 422
+
+    meet(run)
+
+
+def test_one_process_checks_all_and_another_begins_where_it_was_lost(monkeypatch):
+    async def run() -> None:
+        checks = AvatarChecks()
+        await checks.check(avatar())
+        first = checks._process
+        for fault in ("SVG", "springs of many joints", "nothing"):
+            with pytest.raises(FormatError, match=REFUSED[fault][1]):
+                await checks.check(REFUSED[fault][0])
+        assert checks._process is first
+        first.kill()
+        with pytest.raises(FormatError, match="a simpler one"):
+            await checks.check(avatar())
+        await checks.check(avatar())
+        second = checks._process
+        asked = asyncio.create_task(checks.check(textured(b"<svg>")))
+        await asyncio.sleep(0)
+        asked.cancel()
+        await asyncio.gather(asked, return_exceptions=True)
+        await checks.check(avatar())  # and is not told of the other's fault
+        assert second.returncode is not None
+        monkeypatch.setattr("room.server.avatar_checks.CHECK_S", 0)
+        with pytest.raises(FormatError, match="a simpler one"):
+            await checks.check(avatar())
+        monkeypatch.undo()
+        await checks.check(avatar())
+        third = checks._process
+        await checks.close()
+        assert third.returncode is not None
+
+    asyncio.run(asyncio.wait_for(run(), 300))
 
 
 def test_refusals_are_sentences_and_change_nothing():

@@ -6,11 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from room.errors import NotAllowed
 from room.protocol.answers import Door
 from room.protocol.texts import Join, Moderate
 from room.state import Meeting, Seat
 from room.state.kept_rulings import KEPT_S, MOST_KEPT, KeptRulings
-from room.state.meeting import KEEP_S
+from room.state.meeting import KEEP_S, MOST_BEYOND
 from room.state.rulings import MOST_RULED, Rulings
 from tests.room.guests import meeting
 
@@ -44,6 +45,24 @@ def test_who_goes_and_comes_back_is_muted_and_undressed_as_before(goes):
     meeting.moderate(chair, Moderate(action="unmute", number=again.number))
     meeting.leave(again)
     assert not _enter(meeting).person.muted
+
+
+def test_moderators_come_into_a_full_room_and_not_without_end():
+    def come(number: int, *, moderator: bool) -> Seat:
+        secret = f"{number:022}"
+        return meeting.enter(Join(key="k" * 22, secret=secret, name="Ada"), moderator=moderator)
+
+    meeting = Meeting(most_people=3)
+    for number in range(3):
+        come(number, moderator=False)
+    beyond = [come(10 + number, moderator=True) for number in range(MOST_BEYOND)]
+    for moderator in (False, True):
+        with pytest.raises(NotAllowed, match="is full"):
+            come(100, moderator=moderator)
+    meeting.moderate(beyond[0], Moderate(action="remove", number=beyond[1].number))
+    with pytest.raises(NotAllowed, match="is full"):
+        come(100, moderator=False)
+    come(100, moderator=True)
 
 
 def test_of_too_many_rulings_the_oldest_are_forgotten():
