@@ -181,6 +181,24 @@ def test_a_reader_of_scripts_that_is_not_done_in_time_is_told(program, tmp_path,
         engine.check(tmp_path)
 
 
+@pytest.mark.parametrize(("grace_s", "told"), [(30.0, False), (31.0, True)])
+def test_a_grace_that_slurm_will_not_give_is_told(tmp_path, monkeypatch, grace_s, told):
+    """As `scontrol show config` of Slurm 22.05 prints it; where there is none, nothing is said."""
+    job = dataclasses.replace(JOB, resources=Resources(grace_s=grace_s))
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert Slurm().notes(job) == []
+    config = "Configuration data as of 2026-11-29\nKeepAliveTime = SYSTEM_DEFAULT\nKillWait = 30 sec\n"
+    (tmp_path / "scontrol").write_text(f"#!/bin/sh\nprintf '{config}'\n".replace("\nK", "\\nK"))
+    (tmp_path / "scontrol").chmod(0o755)
+    assert ["kills 30 s after" in note for note in Slurm().notes(job)] == [True] * told
+
+
+@pytest.mark.parametrize(("grace_s", "told"), [(590.0, False), (591.0, True)])
+def test_a_grace_that_openjd_will_not_give_is_told(grace_s, told):
+    job = dataclasses.replace(JOB, resources=Resources(grace_s=grace_s))
+    assert ["590 s at most" in note for note in ENGINES["openjd"].notes(job)] == [True] * told
+
+
 def test_what_a_site_lets_squeue_say_besides_is_no_task():
     submission = Submission(ids={"generate": "41"})
     assert read_squeue("Welcome to 41\n41\n41|x\n41|3|RUNNING|None\n", submission).running == {3}
