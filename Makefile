@@ -40,6 +40,9 @@ TORCHED  = $(shell grep --recursive --files-with-matches --fixed-strings 'import
 APART    =
 ELSEWHERE = --ignore tests/real_tools $(APART:%=--ignore %)
 
+# rigs of make are this clone's, whatever folder a shell uses for its farm: targets are files at known places
+unexport FACEGEN_RIGS
+
 .DEFAULT_GOAL := help
 .PHONY: help setup lock rig dataset train export headset headset-any models rig-of-clone samples web room-face room-avatars wheel test test-farm test-headset test-quick durations docs-test fuzz lint format \
   clean distclean

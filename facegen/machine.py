@@ -15,7 +15,8 @@ _CLOCK_SLACK_NS = 2_000_000_000
 def machine_name() -> str:
     """Name that is equal only for processes that see each other's ids.
 
-    Two containers may have one host name, and each its own process 7; the suffix tells them apart.
+    Two containers may have one host name, and each its own process 7; the suffix tells them apart. So it does a machine
+    before and after it was started again: of two machines of one host name it could not be told.
     """
     parts = []
     with contextlib.suppress(OSError):  # not Linux: the host name must do

@@ -54,7 +54,12 @@ def submit(
     max_parallel: Annotated[
         int | None, typer.Option("--max-parallel", min=1, help="Tasks at a time.")
     ] = None,
-    grace: Annotated[float, typer.Option("--grace", min=0, help="Seconds to end running work in.")] = 30.0,
+    grace: Annotated[
+        float,
+        typer.Option(
+            "--grace", min=0, help="Seconds to end running work in; Slurm's KillWait may allow less."
+        ),
+    ] = 30.0,
     maps: Annotated[
         list[str], typer.Option("--map", help="FROM=TO: a folder that has another name on the farm.")
     ] = [],  # noqa: B006  typer makes a new list for each call
@@ -228,6 +233,8 @@ def _hand_over(
     from facegen import farm
 
     engine = farm.ENGINES[job.engine]
+    for note in filter(None, (*engine.notes(job), job.memory_note)):
+        say(f"facegen: {note}")
     table = {"job": job.name, "folder": str(job.folder), "tasks": len(job.chunks), "steps": list(job.steps)}
     if dry_run:
         if as_json:

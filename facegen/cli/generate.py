@@ -61,7 +61,7 @@ def generate(
     """
     from facegen.spec import load_spec
     from facegen.store import begin, check_folder_is_free, resolve
-    from facegen.work import Limits, check_versions, plan_work
+    from facegen.work import Limits, check_versions, crew_note, plan_work
     from facegen.work import generate as make
 
     dataset = resolve(load_spec(spec), out)
@@ -83,7 +83,7 @@ def generate(
         )
         return
     missing = len(work.missing)
-    if note := check_versions(dataset, work):
+    for note in filter(None, (check_versions(dataset, work), crew_note(work, workers))):
         say(f"facegen: {note}")
     begin(dataset)
     answer_stops(_stop_early)  # a terminal gets its cursor back

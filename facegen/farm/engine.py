@@ -42,6 +42,9 @@ class Engine(Protocol):
     def check(self, folder: Path) -> None:
         """Refuse a job whose files, written below ``folder``, the scheduler or a shell would not take."""
 
+    def notes(self, job: Job) -> list[str]:
+        """Say what of a job's wishes the scheduler will not grant; nothing of what cannot be asked."""
+
     def instructions(self, job: Job) -> list[str]:
         """Commands that start the job by hand, for ``--dry-run``."""
 

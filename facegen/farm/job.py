@@ -14,6 +14,7 @@ from facegen.farm.resources import Resources, refuse_control
 from facegen.files import output_errors, write_whole
 from facegen.refusals import refusal
 from facegen.store import DatasetFolder
+from facegen.work import memory_note
 
 Step = Literal["generate", "validate", "pack", "train", "export"]
 
@@ -74,6 +75,15 @@ class Job:
     def folder(self) -> Path:
         """Folder of the record, as the submitting machine sees it."""
         return Path(self.out) / "farm" / self.name
+
+    @property
+    def memory_note(self) -> str:
+        """A sentence where a task that renders has too little memory for its workers."""
+        memory, cpus = self.resources.mem_mib, self.resources.cpus
+        if memory is None or not any(chunk.samples for chunk in self.chunks):
+            return ""
+        note = memory_note(memory << 20, cpus)
+        return note and f"--mem {self.resources.mem}: {note}"
 
 
 @dataclass(frozen=True, kw_only=True)

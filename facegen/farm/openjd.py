@@ -19,7 +19,10 @@ from facegen.farm.shell import check_setup
 from facegen.spec import format_ranges, sample_numbers
 
 NOTIFY_S = 10
-"""Added to the grace: the time to end what a drain waited for. The sum may be 600 s at most."""
+"""Added to the grace: the time to end what a drain waited for."""
+
+_MOST_NOTIFY_S = 600
+"""Of that sum, by the specification."""
 
 RETRIES = 5
 """Tries of a failed task on Deadline Cloud; a drained worker's exit code 75 counts as a failure there."""
@@ -187,7 +190,7 @@ def _script(job: Job, command: list[str], *, done: str | None = None) -> dict[st
     action: dict[str, Any] = {
         "cancelation": {
             "mode": "NOTIFY_THEN_TERMINATE",
-            "notifyPeriodInSeconds": min(600, round(resources.grace_s) + NOTIFY_S),
+            "notifyPeriodInSeconds": min(_MOST_NOTIFY_S, round(resources.grace_s) + NOTIFY_S),
         }
     }
     if resources.time_s is not None:
@@ -252,6 +255,13 @@ class OpenJD:
         if read.returncode:
             words = " ".join(f"{read.stdout} {read.stderr}".replace(str(template), "the template").split())
             raise InputError(f"OpenJD does not take the job: {words}")
+
+    def notes(self, job: Job) -> list[str]:
+        """Say where a cancelled task has less time than its grace."""
+        most = _MOST_NOTIFY_S - NOTIFY_S
+        if job.resources.grace_s <= most:
+            return []
+        return [f"--grace {job.resources.grace_s:g}: OpenJD gives a cancelled task {most} s at most"]
 
     def instructions(self, job: Job) -> list[str]:
         """Commands for this machine, and for Deadline Cloud."""

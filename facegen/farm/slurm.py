@@ -153,6 +153,19 @@ class Slurm:
         for path in sorted(folder.glob("*.sh")):
             check_shell(path.read_text(encoding="utf-8"), what=f"the script of the step {path.stem!r}")
 
+    def notes(self, job: Job) -> list[str]:
+        """Say where a stopped task has less time than its grace."""
+        try:
+            told = re.search(r"^KillWait\s*=\s*(\d+)", _run(["scontrol", "show", "config"]), re.MULTILINE)
+        except FacegenError:
+            return []
+        if told is None or job.resources.grace_s <= int(told[1]):
+            return []
+        return [
+            f"--grace {job.resources.grace_s:g}: this Slurm kills {told[1]} s after it asked a task to end (KillWait); "
+            "one that is cancelled, preempted or at its limit has no more, and --grace holds before --time alone"
+        ]
+
     def instructions(self, job: Job) -> list[str]:
         """Write the sbatch commands, with names for the numbers that Slurm will give."""
         commands, before = [], None

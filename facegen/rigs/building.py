@@ -35,7 +35,7 @@ def build_rig(
     path
         Folder of its sources, for those that are built from one.
     wheel
-        Wheel of its sources; downloaded where not given.
+        Wheel of its sources, of which a copy is kept for avatars; downloaded where not given.
     folder
         Where to write; default `facegen.rigs.files.rigs_folder`.
     modes
@@ -57,7 +57,7 @@ def build_rig(
         raise InputError(f"There is no rig {name!r} to build; facegen builds {' and '.join(RIGS)}")
     folder = Path(folder) if folder is not None else rigs_folder()
     npz = folder / f"{name}.npz"
-    if not force and path is None and _up_to_date(name, folder, modes):
+    if not force and path is None and wheel is None and _up_to_date(name, folder, modes):
         return npz, False
     if modes is not None and path is None:
         raise InputError(

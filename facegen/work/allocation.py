@@ -8,6 +8,12 @@ import psutil
 
 _MIB = 1 << 20
 
+MEMORY_SHARE = 0.8
+"""A worker above this share of what it may take is renewed before the system kills it."""
+
+_RENDERING_BYTES = 800_000_000
+"""What a worker that renders may hold: some 700 MB, Blender and a rig among it."""
+
 _WINDOWS_WORKERS = 30
 """Processes: one waits for 63 things at a time there, and for two of each process."""
 
@@ -45,6 +51,23 @@ def available_memory(environ: Mapping[str, str] = os.environ, cgroups: Path = Pa
     for folder in _own_cgroups(cgroups):
         limits += [int(text) for text in _words(folder / "memory.max") if text.isdigit()]
     return min(limits)
+
+
+def memory_share(memory: float, workers: int) -> int:
+    """Bytes above which one of so many workers is renewed."""
+    return int(MEMORY_SHARE * memory / workers)
+
+
+def memory_note(memory: float, workers: int) -> str:
+    """A sentence where workers that render would be renewed after each sample; nothing where memory is enough."""
+    if memory_share(memory, workers) >= _RENDERING_BYTES:
+        return ""
+    enough = int(MEMORY_SHARE * memory // _RENDERING_BYTES)
+    advice = f", or {enough} workers" if 0 < enough < workers else ""
+    return (
+        f"{workers} workers in {memory / 1e9:.1f} GB of memory are too many: one that renders holds some 0.7 GB, so "
+        f"each would be started anew after every sample; give {workers * 1.5:g} GB{advice}"
+    )
 
 
 def _own_cgroups(root: Path) -> list[Path]:

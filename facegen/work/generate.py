@@ -7,14 +7,12 @@ from functools import cached_property
 from typing import Literal
 
 from facegen.store import Dataset, begin, check_renderer, holds_dataset, staging, sweep, version_note
-from facegen.work.allocation import available_cpus, available_memory, side_by_side
+from facegen.work.allocation import available_cpus, available_memory, memory_note, memory_share, side_by_side
 from facegen.work.limits import Limits
 from facegen.work.supervisor import Supervisor
 from facegen.work.tasks import Task, Wanted, done_tasks, quarantined_tasks, wanted_tasks
 
 DEFAULT_GRACE_S = 30.0
-MEMORY_SHARE = 0.8
-"""A worker above this share of what it may take is renewed before the system kills it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -144,8 +142,8 @@ def generate(
         for task in missing:
             shutil.rmtree(dataset.folder.quarantine(task.name), ignore_errors=True)
     cpus = available_cpus()
-    workers = min(side_by_side(workers or cpus), len(missing))
-    share = int(MEMORY_SHARE * available_memory() / workers)
+    workers = _crew_size(work, workers, cpus)
+    share = memory_share(available_memory(), workers)
     supervisor = Supervisor(
         dataset=dataset,
         workers=workers,
@@ -164,6 +162,17 @@ def generate(
         quarantined=(*work.quarantined, *outcome.quarantined),
         left=len(missing) - outcome.made - outcome.found - len(outcome.quarantined),
     )
+
+
+def crew_note(work: Work, workers: int | None) -> str:
+    """A sentence where the workers of a run that renders have too little memory; nothing where they have enough."""
+    if not work.left("sample"):
+        return ""
+    return memory_note(available_memory(), _crew_size(work, workers, available_cpus()))
+
+
+def _crew_size(work: Work, workers: int | None, cpus: int) -> int:
+    return min(side_by_side(workers or cpus), len(work.missing))
 
 
 def _check_writable(dataset: Dataset) -> None:

@@ -39,6 +39,9 @@ class Told:
 
     def check(self, folder: Path) -> None: ...
 
+    def notes(self, job: Job) -> list[str]:
+        return []
+
     def instructions(self, job: Job) -> list[str]:
         return []
 
@@ -226,6 +229,15 @@ def test_records_of_what_failed_go_with_the_job_that_tries_again(engine, tmp_pat
     assert record.exists() != taken
     assert taken or (record / "first.log").read_text() == "why"
     assert not list((out / "tmp").iterdir())
+
+
+@pytest.mark.parametrize(("mem", "told"), [("4G", True), ("12G", False)])
+def test_too_little_memory_for_the_workers_of_a_task_is_told(engine, tmp_path, mem, told):
+    (tmp_path / "spec.toml").write_text(SPEC + RENDERED)
+    words = ("--out", tmp_path / "out", "--engine", "slurm", "--cpus", "8", "--mem", mem)
+    said = farm("submit", tmp_path / "spec.toml", *words).stderr
+    assert ("--mem 4G: 8 workers in 4.3 GB of memory are too many" in said) == told
+    assert said.endswith("give 12 GB, or 4 workers\n" if told else "")
 
 
 def dry_script(folder: Path, step: str, *options: str) -> str:

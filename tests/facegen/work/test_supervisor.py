@@ -9,7 +9,16 @@ import pytest
 from facegen.errors import OutputError, WorkersFailed
 from facegen.spec import parse_spec
 from facegen.store import resolve
-from facegen.work import Limits, attempt_logs, generate, quarantined_tasks, read_journals, wanted_tasks
+from facegen.work import (
+    Limits,
+    attempt_logs,
+    crew_note,
+    generate,
+    plan_work,
+    quarantined_tasks,
+    read_journals,
+    wanted_tasks,
+)
 from facegen.work.supervisor import Outcome, Supervisor
 from tests.facegen.work import faults
 
@@ -57,6 +66,19 @@ def test_processes_share_all_processors_and_memory(tmp_path, monkeypatch, sample
     dataset = resolve(parse_spec(SPEC, where="test"), tmp_path / "out")
     generate(dataset, samples, shards="", workers=workers, limits=Limits(memory=memory))
     assert told == [expected]
+
+
+def test_too_little_memory_is_told_of_pictures_alone(tmp_path, monkeypatch):
+    module = sys.modules[generate.__module__]
+    monkeypatch.setattr(module, "available_cpus", lambda: 8)
+    monkeypatch.setattr(module, "available_memory", lambda: 4 << 30)
+    dataset = resolve(parse_spec(SPEC, where="test"), tmp_path / "out")
+    pictures, keypoints = (
+        plan_work(dataset, samples, shards=shards) for samples, shards in (("0-9", ""), ("", "0"))
+    )
+    assert crew_note(pictures, None).startswith("8 workers in 4.3 GB")
+    assert crew_note(plan_work(dataset, "0-2", shards=""), None) == ""
+    assert crew_note(pictures, 4) == crew_note(keypoints, None) == ""
 
 
 def outcomes(dataset) -> list[str]:
