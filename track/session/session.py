@@ -194,7 +194,7 @@ class Session:
                 "recording": self._recordings.under_way,
                 "calibrated": self.profile.neutral is not None,
                 "profile": self.profile.person,
-                "gains": dict(self.profile.gains),
+                "gains": self.adjusting.gains_shown,
             },
         )
 
