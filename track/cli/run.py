@@ -88,7 +88,8 @@ def run(
 ) -> None:
     """Move an avatar with your face: on the page, in VSeeFace, Unreal, VRChat and others.
 
-    Pictures never leave this machine. Ctrl-C ends it, and recordings are then written whole.
+    Pictures never leave this machine, unless --host shows the page to others. Ctrl-C ends it, and recordings are then
+    written whole.
 
     Example: track --camera 0 --to vmc
     """

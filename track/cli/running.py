@@ -166,7 +166,10 @@ def _open_page(
         avatar=options.avatar,
     )
     closing.callback(page.close)
-    say(f"the page is at {page.url}; pictures stay on this machine")
+    say(
+        f"the page is at {page.url}; "
+        + ("who has this link sees the pictures" if page.is_shared else "pictures stay on this machine")
+    )
     if options.browser:
         threading.Thread(target=webbrowser.open, args=(page.url,), daemon=True).start()
     return page

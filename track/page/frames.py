@@ -24,8 +24,10 @@ LARGEST_SIDE = 640
 JPEG_QUALITY = 75
 
 
-def hello(*, cameras: Sequence[str], steps: Sequence[str], settings: Mapping[str, object]) -> str:
-    """What a browser is told first: names that later messages use by their places."""
+def hello(
+    *, cameras: Sequence[str], steps: Sequence[str], settings: Mapping[str, object], shared: bool = False
+) -> str:
+    """What a browser is told first: names that later messages use by their places, and whether others may look."""
     return _json(
         {
             "type": "hello",
@@ -34,6 +36,7 @@ def hello(*, cameras: Sequence[str], steps: Sequence[str], settings: Mapping[str
             "cameras": list(cameras),
             "steps": list(steps),
             "settings": dict(settings),
+            "shared": shared,
         }
     )
 

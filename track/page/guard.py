@@ -76,6 +76,11 @@ class Guard:
             )
         return cls(host=host, token=token or ("" if is_loopback(host) else secrets.token_urlsafe(32)))
 
+    @property
+    def is_shared(self) -> bool:
+        """Whether other machines can connect."""
+        return not is_loopback(self.host)
+
     def objection(self, request: web.Request) -> str | None:
         """Why a request is not answered, as a sentence; None where it is.
 
@@ -101,7 +106,7 @@ class Guard:
             return False
         if is_loopback(name) or name == self.host.lower():
             return True
-        return not is_loopback(self.host) and _address(name) is not None
+        return self.is_shared and _address(name) is not None
 
 
 def _place(origin: str) -> str:

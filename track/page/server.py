@@ -103,6 +103,11 @@ class Page:
         return f"http://{shown}:{self.port}/" + (f"?token={self._guard.token}" if self._guard.token else "")
 
     @property
+    def is_shared(self) -> bool:
+        """Whether other machines may look, who then see the cameras' pictures."""
+        return self._guard.is_shared
+
+    @property
     def watched(self) -> bool:
         """Whether a browser looks just now."""
         return bool(self._viewers)
@@ -212,7 +217,11 @@ class Page:
         sending = asyncio.create_task(viewer.send_newest())
         self._viewers.add(viewer)
         try:
-            await socket.send_str(frames.hello(cameras=self._cameras, steps=self._steps, settings=settings))
+            await socket.send_str(
+                frames.hello(
+                    cameras=self._cameras, steps=self._steps, settings=settings, shared=self.is_shared
+                )
+            )
             async for message in socket:
                 await self._hear(viewer, message.data if message.type is WSMsgType.TEXT else "")
         except ConnectionError:

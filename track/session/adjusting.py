@@ -12,7 +12,7 @@ from track.profile.profile import LARGEST_GAIN, Profile
 from track.session.calibration import Calibration
 from track.session.faces import faces_of
 from track.session.outcomes import found_alone, learnt, neutral_shown
-from track.session.person import Person, centre_of
+from track.session.person import Person, centre_of, other_side
 from track.session.pipeline import Pipeline
 from track.session.ranges import blinks_of, ends_of
 from track.session.showing import Outcome
@@ -95,6 +95,15 @@ class Adjusting:
         self._use_known_neutral()
 
     @property
+    def gains_shown(self) -> dict[str, float]:
+        """Gains by the shapes that they are seen in, which a mirror exchanges."""
+        return {self._side_of(shape): gain for shape, gain in self.profile.gains.items()}
+
+    def _side_of(self, shape: str) -> str:
+        """A shape of the person behind one that is seen, and the other way round."""
+        return other_side(shape) if self.person.mirrored else shape
+
+    @property
     def calibrating(self) -> bool:
         """Whether a calibration is under way."""
         return self._calibration is not None
@@ -118,7 +127,7 @@ class Adjusting:
             self._change(mirror=self.person.mirrored)
         elif verb == "gain" and command.shape is not None and isinstance(value, (int, float)):
             gain = float(np.clip(value, 0.0, LARGEST_GAIN))
-            self._change(gains={**self.profile.gains, command.shape: gain})
+            self._change(gains={**self.profile.gains, self._side_of(command.shape): gain})
         elif verb == "recentre":
             self._looks = []
 

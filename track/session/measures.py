@@ -2,7 +2,7 @@
 
 import time
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import islice
@@ -76,12 +76,11 @@ class Measures:
             self._cpu_s[name] = deque(maxlen=self._remembered)
         self._cpu_s[name].append(time.thread_time() - start)
 
-    def frame(self, now_s: float, latency_s: float | None) -> None:
-        """Count a frame that went out."""
+    def frame(self, now_s: float, latencies_s: Iterable[float] = ()) -> None:
+        """Count a frame that came; what went out with it is older where a filter looks ahead."""
         self.frames += 1
         self._times_s.append(now_s)
-        if latency_s is not None:
-            self._latency_s.append(latency_s)
+        self._latency_s.extend(latencies_s)
 
     def shown(self, now_s: float) -> tuple[float, dict[str, float]]:
         """Frames a second and latency in ms of the last frames, for who looks on: new ones each `SHOWN_EVERY_S`."""

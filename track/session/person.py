@@ -76,5 +76,11 @@ def centre_of(gaze: Sequence[float] | None) -> np.ndarray:
     return np.zeros(4) if gaze is None else np.array(gaze)
 
 
+def other_side(shape: str) -> str:
+    """A shape's name on the other side of the face; its own where it has no side."""
+    left, right = shape.replace("Left", "Right"), shape.replace("Right", "Left")
+    return left if left != shape else right
+
+
 def _ahead(profile: Profile) -> np.ndarray:
     return np.zeros(3) if profile.head is None else np.array(profile.head)

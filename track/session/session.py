@@ -156,7 +156,8 @@ class Session:
             with self.measures.stage(name):
                 samples = [ready for given in samples for ready in stage.feed(given)]
         answers = self._sent(samples)
-        self.measures.frame(time.perf_counter(), None if now_s is None else now_s() - sample.time_s)
+        ages_s = () if now_s is None else [now_s() - each.time_s for each in answers]
+        self.measures.frame(time.perf_counter(), ages_s)
         return answers
 
     def finish(self) -> list[Sample]:
@@ -193,7 +194,7 @@ class Session:
                 "recording": self._recordings.under_way,
                 "calibrated": self.profile.neutral is not None,
                 "profile": self.profile.person,
-                "gains": dict(self.profile.gains),
+                "gains": self.adjusting.gains_shown,
             },
         )
 

@@ -4,7 +4,8 @@ Frames go to the disk as they come; at the end they are read again and become ke
 whose time does not rise, becomes none.
 """
 
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from importlib import resources
@@ -16,18 +17,28 @@ from facegen.conventions import BLENDSHAPES
 from facegen.errors import FacegenError
 from facegen.files import output_errors, write_whole
 from facegen.formats.gltf_animation import AnimatedAvatar, animate_avatar
+from facegen.formats.gltf_container import MOST_BYTES
 from facegen.formats.vrm_animation import vrm_animation
-from regress.runtime.prediction import Prediction
 from regress.runtime.sample import Sample
 from regress.runtime.stages.retargeting.target_file import read_retargeting
-from regress.runtime.writers.csv_table import weights_csv
+from regress.runtime.writers.csv_table import csv_lines
 from track.sinks.axes import quaternion
 from track.sinks.recording import Clock, Recording
+from track.sinks.rows import Rows
 from track.sinks.sink import Sink, Tell, has_face
 from track.sinks.targets import Target
 
 MOST_FRAMES = 1_000_000
-"""Of one recording: nine hours at 30 a second, 0.5 GB on the disk and as much of memory when they become keyframes."""
+"""Of one recording: nine hours at 30 a second, 0.5 GB on the disk and up to 3 GB of memory when they become keyframes.
+
+A file of `MOST_BYTES` may hold fewer (`_most_frames`): a .vrma with all expressions holds six hours.
+"""
+
+_SOON_FRAMES = 1000
+"""That become an animation at once; before more it is said what takes so long."""
+
+_CLOCKS_BYTES = 8
+"""Of a frame, where head and gaze come and go and have times of their own."""
 
 OUR_AVATAR = resources.files("track") / "page" / "static" / "head.glb"
 
@@ -81,59 +92,96 @@ class AnimationSink(Sink):
 
     def __init__(self, target: Target, made: Callable[[Take], bytes], tell: Tell) -> None:
         self.title = target.title
-        self._made, self._tell = made, tell
+        self._made, self._tell, self._most = made, tell, _most_frames(made)
         self._recording, self._clock = Recording(target.path), Clock()
         self._rows_path = self._recording.part.with_name("rows")
         with output_errors(target.path):
-            self._rows = open(self._rows_path, "w+b")
-        self._count, self._last_s = 0, np.float32(-1)
+            self._rows = Rows(self._rows_path)
+        self._last_s, self._told_most = np.float32(-1), False
 
     def send(self, sample: Sample) -> None:
         """Keep a sample's numbers."""
         time_s = self._clock.of(sample)
-        if not has_face(sample) or not np.float32(time_s) > self._last_s or self._count > MOST_FRAMES:
+        if not has_face(sample) or not np.float32(time_s) > self._last_s or self._told_most:
             return
-        self._count += 1
-        if self._count > MOST_FRAMES:
-            self._tell(f"{self.title}: {MOST_FRAMES:,} frames are recorded, and no more; the rest goes on")
+        if self._rows.count >= self._most:
+            self._told_most = True
+            self._tell(f"{self.title}: {self._most:,} frames are recorded, and no more; the rest goes on")
             return
         self._last_s = np.float32(time_s)
         gaze = np.full(4, np.nan) if sample.gaze is None else sample.gaze
         head = np.full(6, np.nan) if sample.head is None else sample.head
         with output_errors(self._recording.path):
-            self._rows.write(np.concatenate([[time_s], sample.weights, gaze, head]).astype("<f8").tobytes())
+            self._rows.add(np.concatenate([[time_s], sample.weights, gaze, head]).astype("<f8").tobytes())
 
     def close(self) -> None:
-        """Make the animation of what was recorded; of nothing there is none."""
+        """Make the animation of what was recorded; of nothing there is none.
+
+        A take is not lost where that cannot be done, or is stopped by Ctrl-C: its numbers become a table.
+        """
         with output_errors(self._recording.path):
-            self._rows.flush()
-            self._rows.seek(0)
-            numbers = np.fromfile(self._rows, "<f8").reshape(-1, sum(_WIDTHS))
             self._rows.close()
-            self._rows_path.unlink()
-        if not len(numbers):
+        if not self._rows.count:
             self._recording.drop()
             self._tell(f"{self.title}: no face was recorded, so there is no file")
             return
-        time, weights, gaze, head = np.split(numbers, np.cumsum(_WIDTHS)[:-1], axis=1)
-        take = Take(time_s=time[:, 0], weights=weights, gaze=gaze, head=head, title=self._recording.path.stem)
+        if self._rows.count > _SOON_FRAMES:
+            self._tell(f"writing {self.title}")
         try:
             with output_errors(self._recording.path):
-                self._recording.part.write_bytes(self._made(take))
-        except FacegenError as error:
+                self._recording.part.write_bytes(self._made(self._take()))
+        except BaseException as error:  # Ctrl-C among them
+            rescued = f"the recorded weights are in {self._rescued()}"
             self._recording.drop()
-            raise type(error)(f"{error}; the recorded weights are in {self._rescued(take)}") from error
+            if isinstance(error, FacegenError):
+                raise type(error)(f"{error}; {rescued}") from error
+            self._tell(f"{self.title} is not made; {rescued}")
+            raise
         self._recording.keep()
+        self.kept = True
 
-    def _rescued(self, take: Take) -> Path:
-        """A table of a take of which no animation can be made, as of an avatar that has changed meanwhile."""
-        path = self._recording.path.with_name(f"{self._recording.path.stem}-weights.csv")
-        samples = [
-            Sample(label=str(row), time_s=float(time_s), weights=weights)
-            for row, (time_s, weights) in enumerate(zip(take.time_s, take.weights, strict=True))
-        ]
-        write_whole(path, weights_csv(Prediction(samples=samples)))
-        return path
+    def _take(self) -> Take:
+        numbers = np.fromfile(self._rows_path, "<f8").reshape(-1, sum(_WIDTHS))
+        time, weights, gaze, head = np.split(numbers, np.cumsum(_WIDTHS)[:-1], axis=1)
+        return Take(time_s=time[:, 0], weights=weights, gaze=gaze, head=head, title=self._recording.path.stem)
+
+    def _rescued(self) -> Path:
+        """A table of a take of which no animation is made; where there is no place for one, its numbers as they lie."""
+        path = self._recording.path
+        self._recording.part.unlink(missing_ok=True)
+        table = path.with_name(f"{path.stem}-weights.csv")
+        try:
+            return write_whole(table, "".join(csv_lines(_samples(self._take()), BLENDSHAPES)))
+        except BaseException:  # Ctrl-C once more, and a disk that is full: a name takes no time and no space
+            table = path.with_name(f"{path.stem}-weights.f64")
+            os.replace(self._rows_path, table)
+            return table
+
+
+def _samples(take: Take) -> Iterator[Sample]:
+    """Rows of a take, one by one: as many samples at once would take more memory than the table."""
+    for row, (time_s, weights) in enumerate(zip(take.time_s, take.weights, strict=True)):
+        yield Sample(
+            label=str(row), time_s=float(time_s), weights=weights, gaze=take.gaze[row], head=take.head[row]
+        )
+
+
+def _most_frames(made: Callable[[Take], bytes]) -> int:
+    """Frames that an animation may have, so that its file can be opened again."""
+    small, large = (len(made(_still(count))) for count in (1, 101))
+    frame_bytes = (large - small) / 100 + _CLOCKS_BYTES
+    return max(0, min(MOST_FRAMES, int((MOST_BYTES - large) / frame_bytes)))
+
+
+def _still(count: int, title: str = "still") -> Take:
+    """A face at rest."""
+    return Take(
+        time_s=np.arange(float(count)),
+        weights=np.zeros((count, len(BLENDSHAPES))),
+        gaze=np.zeros((count, 4)),
+        head=np.zeros((count, 6)),
+        title=title,
+    )
 
 
 def open_sink(target: Target, tell: Tell) -> Sink:
@@ -142,14 +190,7 @@ def open_sink(target: Target, tell: Tell) -> Sink:
         return AnimationSink(target, partial(_vrma, names=target.options.get("names", "both")), tell)
     avatar = Path(target.options.get("avatar", str(OUR_AVATAR)))
     moved = partial(_moving, avatar=avatar, names=target.options.get("names"))
-    still = Take(
-        time_s=np.zeros(1),
-        weights=np.zeros((1, len(BLENDSHAPES))),
-        gaze=np.zeros((1, 4)),
-        head=np.zeros((1, 6)),
-        title=target.path.stem,
-    )
-    made = moved(still)
+    made = moved(_still(1, target.path.stem))
     if made.missing:
         tell(f"{avatar} has no morph target for {', '.join(made.missing)}")
     if made.headless:

@@ -9,6 +9,8 @@ export interface Hello {
   readonly cameras: readonly string[];
   readonly steps: readonly string[];
   readonly settings: Settings;
+  /** Whether other machines may look. */
+  readonly shared?: boolean;
 }
 
 export interface Settings {

@@ -16,6 +16,8 @@ const SAID_MS = 9000;
 /** The measures are read, not watched. */
 const MEASURES_MS = 500;
 
+const SHARED = "Your pictures go to whoever has this page's link, without encryption, and to nobody else.";
+
 let saying = 0;
 function say(sentence: string): void {
   const place = byId("said");
@@ -129,6 +131,7 @@ const connection: Connection = new Connection({
     order = SHAPES.map((shape) => hello.shapes.indexOf(shape));
     cameras.name(hello.cameras);
     calibration.offer(hello.steps);
+    if (hello.shared) byId("stays").textContent = SHARED;
     connection.send({ verb: "picture", value: picture.on });
   },
   frame(news) {

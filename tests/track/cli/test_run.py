@@ -1,5 +1,6 @@
 """`track run` from the words on the command line to the recording, on the sample of a headset."""
 
+import contextlib
 import csv
 import json
 import os
@@ -13,10 +14,10 @@ from pathlib import Path
 import psutil
 import pytest
 
-from tests.track.session.faces import SAMPLES, frames
+from tests.track.session.faces import SAMPLES, frames, new_session
 from track.cli import main
 from track.cli.opening import Wishes, open_pipeline
-from track.cli.running import RunOptions, ended_by_signals, run_session
+from track.cli.running import RunOptions, _open_page, ended_by_signals, run_session
 from track.errors import InputError
 from track.messages import Command
 from track.page import Page
@@ -29,6 +30,17 @@ CAMERAS = [
     for name in ("left_eye", "right_eye", "mouth")
     for word in ("--camera", f"{name}={SAMPLES / 'headset' / name}")
 ]
+
+
+@pytest.mark.parametrize(
+    ("host", "where"), [("127.0.0.1", "stay on this machine"), ("0.0.0.0", "who has this link")]
+)
+def test_it_is_told_where_pictures_go(host, where):
+    said: list[str] = []
+    with contextlib.ExitStack() as closing:
+        options = RunOptions(host=host, browser=False)
+        _open_page(options, new_session(), {"camera": "0"}, said.append, closing)
+    assert where in said[0]
 
 
 def rows(path) -> list[dict[str, str]]:

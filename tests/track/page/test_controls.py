@@ -199,6 +199,17 @@ def test_the_page_comes_back_by_itself(loop, browser, egg):
     loop.run_until_complete(look())
 
 
+@pytest.mark.parametrize(("host", "said"), [("127.0.0.1", "never leave"), ("0.0.0.0", "without encryption")])
+def test_the_page_says_where_pictures_go(loop, browser, egg, host, said):
+    async def look():
+        with Page([].append, host, steps=STEPS, avatar=egg) as page:
+            async with browser.open(page.url) as tab:
+                await tab.until("globalThis.track && connection.dataset.state === 'waiting'")
+                await tab.until(f"document.getElementById('stays').textContent.includes('{said}')")
+
+    loop.run_until_complete(look())
+
+
 def test_a_tab_with_another_runs_link_says_which_to_open(loop, browser, egg):
     async def look():
         with Page([].append, steps=STEPS, avatar=egg, token="first" * 4) as page:

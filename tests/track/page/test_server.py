@@ -78,6 +78,7 @@ def test_a_tab_is_greeted_and_gets_what_is_published(page):
             assert hello["shapes"] == list(BLENDSHAPES)
             assert hello["cameras"] == ["camera"]
             assert hello["steps"] == list(STEPS)
+            assert not hello["shared"]
             step = Step(name="neutral", state="countdown", seconds_left=2.0, text="Rest")
             page.publish(
                 moment(
@@ -340,6 +341,19 @@ def test_another_host_asks_for_the_token_everywhere(asked):
                 return hello
 
         assert asyncio.run(look())["type"] == "hello"
+
+
+def test_a_page_that_others_may_look_at_says_so(asked):
+    async def greeted(page):
+        async with tab(page) as (_, hello):
+            return hello["shared"]
+
+    with Page(asked.append, host="0.0.0.0") as page:
+        assert page.is_shared
+        assert asyncio.run(greeted(page))
+    with Page(asked.append, token=TOKEN) as page:
+        assert not page.is_shared
+        assert not asyncio.run(greeted(page))
 
 
 def test_tokens_are_made_where_they_are_needed_and_cannot_be_short():

@@ -40,6 +40,15 @@ def test_the_last_frames_of_a_film_are_answered_too(name):
     assert summary.frames == summary.faces == page.count == 40
 
 
+@pytest.mark.parametrize(("name", "held_s"), [("none", 0), ("kalman-33", 1 / 30), ("kalman-200", 6 / 30)])
+def test_latency_is_the_age_of_what_reaches_the_sinks(name, held_s):
+    """Of a frame that a filter holds back it is no less by as much as the next ones are newer."""
+    session = new_session(filter_name=name)
+    for sample in frames(0, 60):
+        session.answer(sample, lambda now_s=sample.time_s: now_s + 0.01)
+    assert session.summary().latency_ms["p50"] == pytest.approx((held_s + 0.01) * 1000, abs=2)
+
+
 @pytest.mark.parametrize("name", ["kalman-33", "kalman-50", "mean7"])
 def test_a_pause_of_the_camera_does_not_overtake_what_a_filter_holds(name):
     before = frames(0, 30)

@@ -12,7 +12,7 @@ def test_figures_are_of_the_last_frames_and_reckoned_a_few_times_a_second(monkey
     )
     found = Measures(remembered=10 * REMEMBERED)
     for number in range(4 * REMEMBERED):
-        found.frame(number / 120, 0.1 if number < 2 * REMEMBERED else 0.004)
+        found.frame(number / 120, [0.1 if number < 2 * REMEMBERED else 0.004])
         fps, latency_ms = found.shown(number / 120)
     assert latency_ms == {"p50": 4.0, "p95": 4.0, "p99": 4.0}
     assert abs(fps - 120) < 1

@@ -71,6 +71,30 @@ def test_a_gain_multiplies_and_ends_at_one():
     assert plain.sinks[0].weights[:, jaw].max() > 0.2
 
 
+def test_a_gain_is_that_of_the_side_that_is_seen():
+    """Behind a mirror the page shows the person's right smile as the left one, whose slider it is."""
+    stored: list[Profile] = []
+    seen, louder = (
+        new_session(filter_name="none", profile=calibrated_profile(), mirror=True, keep=stored.append)
+        for _ in range(2)
+    )
+    louder.ask(Command(verb="gain", shape="mouthSmileLeft", value=1.7))
+    louder.ask(Command(verb="gain", shape="jawOpen", value=0.5))
+    for sample in frames(0, 400):
+        seen.answer(sample)
+        louder.answer(sample)
+    expected = seen.sinks[0].weights[30:]
+    expected[:, BLENDSHAPE_INDEX["mouthSmileLeft"]] *= 1.7
+    expected[:, BLENDSHAPE_INDEX["jawOpen"]] *= 0.5
+    np.testing.assert_allclose(louder.sinks[0].weights[30:], np.minimum(expected, 1), atol=1e-9)
+    answer = louder.sinks[0].samples[-1]
+    assert louder.moment(answer).settings["gains"] == {"mouthSmileLeft": 1.7, "jawOpen": 0.5}
+    assert stored[-1].gains == {"mouthSmileRight": 1.7, "jawOpen": 0.5}
+    louder.ask(Command(verb="mirror", value=False))
+    louder.answer(sample)
+    assert louder.moment(answer).settings["gains"] == {"mouthSmileRight": 1.7, "jawOpen": 0.5}
+
+
 def test_calibration_finds_the_neutral_face_and_keeps_it():
     stored: list[Profile] = []
     said: list[str] = []

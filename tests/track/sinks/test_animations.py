@@ -1,5 +1,6 @@
 """Recorded animations: a moving avatar and a VRM animation, played by three.js and three-vrm, validated by Khronos."""
 
+import re
 import tracemalloc
 from dataclasses import replace
 from pathlib import Path
@@ -9,6 +10,7 @@ import pytest
 
 from facegen.conventions import BLENDSHAPES
 from facegen.errors import FormatError, OutputError
+from facegen.formats import gltf_additions
 from facegen.formats.gltf_container import glb_bytes, open_glb
 from facegen.formats.vrm_animation import EXTENSION
 from facegen.geometry import rotation_from_angles
@@ -255,6 +257,57 @@ def test_a_take_outlives_its_avatar(tmp_path: Path):
         [0, 1, 4, 5]
     ]  # with a face, and at times that rise
     np.testing.assert_allclose([table[name] for name in BLENDSHAPES], sent.T, atol=1e-5)
+
+    heads = np.degrees([sample.head[3] for sample in take()])[[0, 1, 4, 5]]
+    np.testing.assert_allclose(table["head_yaw_deg"], heads, atol=1e-5)
+    gazes = np.degrees([sample.gaze[1] for sample in take()])[[0, 1, 4, 5]]
+    np.testing.assert_allclose(table["left_eye_pitch_deg"], gazes, atol=1e-5)
+
+
+@pytest.mark.parametrize("stops", [1, 2])
+def test_ctrl_c_while_an_animation_is_made_loses_no_take(
+    stops: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """The first one in the middle of it, the second while the take is rescued."""
+
+    def stopped(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    told: list[str] = []
+    sink = open_sink(parse_target(f"vrma:{tmp_path / 'b.vrma'}"), told.append)
+    samples = [acted(number, time_s=number / FPS) for number in range(1200)]
+    for sample in samples:
+        sink.send(sample)
+    monkeypatch.setattr(animations, "vrm_animation", stopped)
+    if stops == 2:
+        monkeypatch.setattr(animations, "write_whole", stopped)
+    with pytest.raises(KeyboardInterrupt):
+        sink.close()
+    (left,) = tmp_path.iterdir()
+    assert told == [
+        f"writing vrma to {tmp_path / 'b.vrma'}",
+        f"vrma to {tmp_path / 'b.vrma'} is not made; the recorded weights are in {left}",
+    ]
+    assert left.name == {1: "b-weights.csv", 2: "b-weights.f64"}[stops]
+    if stops == 1:
+        assert len(left.read_text().splitlines()) == 1201
+        return
+    numbers = np.fromfile(left, "<f8").reshape(-1, 63)
+    np.testing.assert_array_equal(numbers[:, 1:53], [sample.weights for sample in samples])
+    np.testing.assert_array_equal(numbers[:, 57:], [sample.head for sample in samples])
+
+
+@pytest.mark.parametrize("target", ["gltf:b.glb", "vrma:b.vrma", "vrma:b.vrma,names=vrm1"])
+def test_a_take_ends_where_its_file_would_get_too_large(
+    target: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.chdir(tmp_path)
+    most = 400_000 + (animations.OUR_AVATAR.stat().st_size if "gltf" in target else 0)
+    monkeypatch.setattr(animations, "MOST_BYTES", most)
+    monkeypatch.setattr(gltf_additions, "MOST_BYTES", most)
+    told = recorded(target, [acted(time_s=number / FPS) for number in range(1800)])
+    assert re.fullmatch(r".* to b\.\w+: [\d,]+ frames are recorded, and no more; the rest goes on", told[0])
+    assert most * 0.7 < (tmp_path / target.split(":")[1].split(",")[0]).stat().st_size <= most
 
 
 def test_a_long_recording_takes_no_more_memory_and_has_an_end(

@@ -90,6 +90,16 @@ def test_a_table_on_a_full_disk_keeps_its_whole_rows_and_all_else_goes_on(name: 
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="makes a small disk of a limit")
+def test_a_take_on_a_full_disk_is_left_as_numbers_where_nothing_else_fits(tmp_path: Path):
+    run = on_a_small_disk(tmp_path, "--to", "vrma:a.vrma")
+    assert run.returncode == 74, run.stderr
+    assert "; the recorded weights are in a-weights." in run.stderr
+    (left,) = tmp_path.glob("a-weights.*")
+    assert left.stat().st_size == 10_000 // (63 * 8) * (63 * 8)
+    assert np.isfinite(np.fromfile(left, "<f8").reshape(-1, 63)[:, :53]).all()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="makes a small disk of a limit")
 def test_a_run_whose_only_recording_has_ended_ends(tmp_path: Path):
     run = on_a_small_disk(tmp_path, "--record", "a.csv", count=200)
     assert run.returncode == 74, run.stderr
