@@ -179,6 +179,17 @@ def test_a_model_is_reported_by_its_own_scores_without_data(
     assert (code, said.strip()) == (2, f"regress: --data {arrays_folder} is given twice")
 
 
+def test_a_report_is_not_written_over_what_is_read(run, models: tuple[Path, Path], arrays_folder: Path):
+    many, few = models
+    for read in (many / "model.json", few / "model.json", arrays_folder / "arrays.json"):
+        before = read.read_bytes()
+        given = ("headset", "report", many, "--data", arrays_folder, "--against", few)
+        code, _, said = run(*given, "--figures", read)
+        assert (code, len(said.splitlines())) == (2, 1)
+        assert f"--figures {read} is also what is read" in said
+        assert read.read_bytes() == before
+
+
 def test_what_the_frames_before_add_is_reported(run, arrays_folder: Path, tmp_path: Path):
     folder = write_tiny_model(tmp_path / "tiny", width=SIDE, height=SIDE)
     figures = ClipSummary(
