@@ -211,6 +211,11 @@ def test_what_the_frames_before_add_is_reported(run, arrays_folder: Path, tmp_pa
     page = out.read_text()
     for word in ("What the frames before add", "frames before, by their taps", "1,234", "0.679"):
         assert word in page
+    assert "clips of the test split" in page
+    known = replace(temporal, unseen=True)
+    describe_headset_model(replace(read_headset_model(folder), temporal=known), folder)
+    assert run("headset", "report", folder, "--data", arrays_folder, "--no-time", "--out", out)[0] == 0
+    assert "people whom neither the network nor the taps have seen" in out.read_text()
 
 
 def test_comparison_is_even_with_itself_and_turns_round(models: tuple[Path, Path], arrays: HeadsetArrays):
