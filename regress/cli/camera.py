@@ -24,12 +24,21 @@ def camera_settings(
         raise InputError(
             f"--fov-deg {fov_deg:g} and --focal-px {focal_px:g} say the same thing: give one of them"
         )
-    size = None
-    if picture is not None:
-        match = _SIZE.fullmatch(picture)
-        if match is None:
-            raise InputError(
-                f"--picture {picture!r} is no size; WIDTHxHEIGHT in pixels is needed, as in 1280x720"
-            )
-        size = (int(match[1]), int(match[2]))
+    size = None if picture is None else picture_size(picture)
     return CameraSettings(picture_px=size, fov_deg=fov_deg, focal_px=focal_px)
+
+
+def picture_size(picture: str) -> tuple[int, int]:
+    """Width and height of what ``--picture`` says.
+
+    Raises
+    ------
+    InputError
+        Where it is no size.
+    """
+    match = _SIZE.fullmatch(picture)
+    if match is None:
+        raise InputError(
+            f"--picture {picture!r} is no size; WIDTHxHEIGHT in pixels is needed, as in 1280x720"
+        )
+    return int(match[1]), int(match[2])

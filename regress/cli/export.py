@@ -1,26 +1,37 @@
 """``regress export``: a trained model as a file that runs elsewhere."""
 
+from enum import Enum
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 import typer
 
 from facegen.console import say
+from regress.errors import InputError
 from regress.exporters import EXPORTERS
+
+ExportFormat = Enum("ExportFormat", {name: name for name in ("all", *EXPORTERS)})
 
 
 def export(
     model: Annotated[Path, typer.Argument(help="Model folder, as `regress train` writes it")],
     chosen: Annotated[
-        Literal[("all", *EXPORTERS)],
-        typer.Option("--format", help="What to write; ONNX needs the learn extra"),
-    ] = "all",
+        list[ExportFormat],
+        typer.Option("--format", help="What to write; may be given again; ONNX needs the learn extra"),
+    ] = (ExportFormat["all"],),
     out: Annotated[Path, typer.Option(help="Folder for the files")] = Path(),
     name: Annotated[str, typer.Option(help="What the files, and C functions, are called")] = "face",
     neutral: Annotated[
         Path | None,
         typer.Option(help="Landmarks of a person's neutral face: the export is then calibrated to them"),
+    ] = None,
+    picture: Annotated[
+        str | None,
+        typer.Option(
+            metavar="WIDTHxHEIGHT",
+            help="Size in pixels of the picture of --neutral, where its points are shares of it between 0 and 1",
+        ),
     ] = None,
     symmetric: Annotated[
         bool, typer.Option("--symmetric", help="Average every face with its mirror image; twice the size")
@@ -33,6 +44,8 @@ def export(
 
     Example: regress export models/default --format onnx
     """
+    from regress.cli.camera import picture_size
+    from regress.cli.neutral_faces import in_pixels
     from regress.cli.rows import sound_rows
     from regress.exporters import export_model
     from regress.runtime.inputs import read_frames
@@ -40,9 +53,14 @@ def export(
     from regress.runtime.ready_made import model_folder
 
     loaded = symmetrised(load_model(model)) if symmetric else load_model(model)
+    picture_px = None if picture is None else picture_size(picture)
     if neutral is not None:
-        loaded = loaded.calibrate(sound_rows(read_frames(neutral)).points)
-    formats = _possible() if chosen == "all" else [chosen]
+        frames = read_frames(neutral)
+        calm = in_pixels(frames, picture_px or frames.picture_px)
+        loaded = loaded.calibrate(sound_rows(calm).points)
+    elif picture is not None:
+        raise InputError(f"--picture {picture} is the size of --neutral's picture; give --neutral as well")
+    formats = _possible() if ExportFormat["all"] in chosen else [each.value for each in chosen]
     folder = model_folder(model)
     sources = [folder / "model.json", folder / "weights.npz", *([] if neutral is None else [neutral])]
     for path in export_model(loaded, out, name=name, formats=formats, sources=sources):

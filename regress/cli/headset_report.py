@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from facegen.console import say
-from facegen.files import refuse_ending, write_whole
+from facegen.files import refuse_ending, refuse_sources, write_whole
 from regress.cli.evaluate import SplitOption
 from regress.errors import InputError, ModelError
 
@@ -57,11 +57,18 @@ def report(
     from regress.report.headset_page import Judged, write_headset_report
     from regress.report.people_curve import CurvePoint
     from regress.runtime.headset.network.predictor import load_headset_predictor
+    from regress.runtime.ready_made import model_folder
     from regress.timing import time_headset
 
     refuse_ending(out, ".html", ".htm", what="a report")
     if figures is not None:
         refuse_ending(figures, ".json", what="a file of figures", option="--figures")
+    models = [model_folder(path) for path in (model, *(against or []), *(curve or []))]
+    sources = [folder / name for folder in models for name in ("model.json", "network.onnx")]
+    sources += [folder / "arrays.json" for folder in data or []]
+    refuse_sources(out, sources)
+    if figures is not None:
+        refuse_sources(figures, sources, option="--figures")
     predictor = load_headset_predictor(model)
     rivals = [(name, load_headset_predictor(path)) for name, path in _titled("--against", against)]
     fewer = [(name, load_headset_predictor(path)) for name, path in _titled("--curve", curve)]

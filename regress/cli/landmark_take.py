@@ -11,13 +11,13 @@ import numpy as np
 from facegen.console import say
 from facegen.files import write_whole
 from regress.cli.fault_runs import FaultRuns
-from regress.cli.neutral_faces import SHARES, in_pixels, neutral_faces, neutral_file
+from regress.cli.neutral_faces import SHARES, in_pixels, neutral_faces, neutral_file, refuse_other_units
 from regress.cli.options import TableFormat
 from regress.cli.results import needs_times, write_prediction
 from regress.cli.rows import sound_rows
 from regress.errors import InputError
 from regress.runtime.heads.camera import CameraSettings
-from regress.runtime.inputs import Frames, read_frames, read_lines, text_lines
+from regress.runtime.inputs import Frames, face_faults, read_frames, read_lines, text_lines
 from regress.runtime.inputs.frames import are_shares, pixels_of
 from regress.runtime.model import Model
 from regress.runtime.predict import predict_frames, predict_stream
@@ -205,17 +205,17 @@ def predict_pipe(
 
 def _in_pixels(samples: Iterable[Sample], picture_px: tuple[int, int] | None) -> Iterator[Sample]:
     """The samples with points in pixels; where no picture is known of shares, a person is told once."""
-    told = False
+    shares = None
     for sample in samples:
-        if np.isfinite(sample.points).all() and are_shares(sample.points):
-            if picture_px is not None:
-                irises = None if sample.irises is None else pixels_of(sample.irises, picture_px)
-                sample = dataclasses.replace(
-                    sample, points=pixels_of(sample.points, picture_px), irises=irises
-                )
-            elif not told:
-                told = True
+        if shares is None and face_faults(sample.points[None]) == [None]:
+            shares = are_shares(sample.points)  # the first face decides for all
+            if shares and picture_px is None:
                 say(f"standard input: {SHARES}")
+            if not shares and picture_px is not None:
+                refuse_other_units(float(np.ptp(sample.points, axis=0).max()), "standard input")
+        if shares and picture_px is not None:
+            irises = None if sample.irises is None else pixels_of(sample.irises, picture_px)
+            sample = dataclasses.replace(sample, points=pixels_of(sample.points, picture_px), irises=irises)
         yield sample
 
 

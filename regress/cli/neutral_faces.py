@@ -18,14 +18,35 @@ SHARES = (
 """Said of points in such a unit."""
 
 
+FEWEST_PX = 3.0
+"""A face's extent, below which its points are in another unit than pixels."""
+
+
 def in_pixels(frames: Frames, picture_px: tuple[int, int] | None) -> Frames:
-    """The frames in pixels; where no picture is known of shares, a person is told."""
+    """The frames in pixels; where no picture is known of shares, a person is told.
+
+    Raises
+    ------
+    InputError
+        Where a picture is known, and points are neither shares of it nor its pixels.
+    """
     if not frames.shares:
+        if picture_px is not None:
+            refuse_other_units(frames.extent, frames.source)
         return frames
     if picture_px is None:
         say(f"{frames.source}: {SHARES}")
         return frames
     return frames.in_pixels(picture_px)
+
+
+def refuse_other_units(extent: float, source: str) -> None:
+    """Raise an InputError where a face's extent is none in pixels."""
+    if extent < FEWEST_PX:
+        raise InputError(
+            f"{source}: faces are {extent:.3g} wide or high, so points are neither pixels nor shares of the picture "
+            "from 0 to 1; --picture needs one of these, so write pixels"
+        )
 
 
 def neutral_faces(model: Model, frames: Frames, neutral: str) -> dict[str | None, Frames | None]:

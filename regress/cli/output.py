@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from regress.errors import InputError
 from regress.runtime.stages.one_euro import OneEuro
 from regress.runtime.stages.output import Output
 
@@ -31,8 +32,10 @@ def output_of(
     Raises
     ------
     InputError
-        Where a file cannot be used.
+        Where a file cannot be used, or beta has nothing to act on.
     """
+    if cutoff_hz is None and beta != OneEuro.beta:
+        raise InputError(f"--beta {beta:g} is of --one-euro, which is not given; add --one-euro 1")
     # each reader imports the settings library, which takes as long as NumPy
     adjustments, retargeting = {}, None
     if adjust is not None:

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from facegen.console import say
-from facegen.files import refuse_ending, write_whole
+from facegen.files import refuse_ending, refuse_sources, write_whole
 from regress.errors import InputError
 
 
@@ -31,6 +31,7 @@ def report(
     from regress.learning.probes import figures_of, measure
     from regress.report import write_report
     from regress.runtime.model import load_model
+    from regress.runtime.ready_made import model_folder
 
     if figures is not None and data is None:
         raise InputError(
@@ -40,6 +41,15 @@ def report(
     if figures is not None:
         refuse_ending(figures, ".json", what="a file of figures", option="--figures")
     trained = load_model(model)
+    folder = model_folder(model)
+    sources = [
+        folder / "model.json",
+        folder / "weights.npz",
+        *([] if data is None else [data / "dataset.json"]),
+    ]
+    refuse_sources(out, sources)
+    if figures is not None:
+        refuse_sources(figures, sources, option="--figures")
     measured = None if data is None else measure(trained, data)
     typer.echo(write_report(trained, out, measured))
     if figures is not None:

@@ -7,10 +7,11 @@ one line in `EXPORTERS`; the tests run over the table. All write the same `Formu
 
 import importlib
 from collections.abc import Callable, Iterable
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from facegen.files import output_errors, refuse_sources, write_whole
+from facegen.files import output_errors, refuse_sources, whole_file
 from regress.errors import InputError
 
 if TYPE_CHECKING:
@@ -81,7 +82,14 @@ def export_model(
         refuse_sources(folder / file_name, sources, option="export")
     with output_errors(folder):
         folder.mkdir(parents=True, exist_ok=True)
-    return tuple(write_whole(folder / file_name, content) for file_name, content in files.items())
+    paths = tuple(folder / file_name for file_name in files)
+    with (
+        ExitStack() as written
+    ):  # names are given when all is written: a header is of its source, types of their module
+        parts = [written.enter_context(whole_file(path)) for path in paths]
+        for part, content in zip(parts, files.values(), strict=True):
+            part.write_bytes(content)
+    return paths
 
 
 def _exporter(chosen: str) -> "Callable[[Formula, str], dict[str, bytes]]":

@@ -118,6 +118,7 @@ def write_headset_report(
         curve=curve_table(curve) if curve else None,
         drawn_curve=Markup(people_curve(curve)) if curve else None,
         temporal=temporal_table(model.temporal) if model.temporal and model.temporal.scores else None,
+        temporal_unseen=model.temporal is not None and model.temporal.unseen,
         timings=[(how, f"{microseconds / 1000:.2f} ms") for how, microseconds in timings],
         hidden=_hidden(judged[0].figures),
         few=judged[0].figures.few.replace("R2", "R²"),

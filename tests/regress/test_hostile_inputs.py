@@ -305,6 +305,16 @@ def test_numbers_of_options_have_bounds(option: str, number: str, run, quick_mod
     assert len(err.splitlines()) == 1
 
 
+@pytest.mark.parametrize("command", [("predict",), ("headset", "predict", "headset-any")])
+def test_beta_without_its_filter_is_refused(command: tuple[str, ...], run, tmp_path: Path):
+    """It changed nothing, without a word; with ``--filter one-euro`` too."""
+    np.save(tmp_path / "a.npy", FACES)
+    for filter_ in ((), ("--filter", "one-euro")):
+        code, out, err = run(*command, tmp_path / "a.npy", "--beta", "9", *filter_)
+        assert (code, out, len(err.splitlines())) == (2, "", 1)
+        assert "--beta 9 is of --one-euro, which is not given" in err
+
+
 EDGES = {
     "words.npy": np.full((68, 3), "1"),
     "complex.npy": np.ones((68, 3), complex),

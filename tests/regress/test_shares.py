@@ -64,22 +64,74 @@ def test_shares_of_an_unknown_picture_are_told_and_taken_for_a_squares(given):
     np.testing.assert_allclose(found, square, atol=2e-5)
 
 
-def test_lines_of_shares_are_pixels_where_the_picture_is_known(given, run, monkeypatch: pytest.MonkeyPatch):
-    def piped(*options: object) -> tuple[np.ndarray, str]:
-        lines = [
-            "" if np.isnan(face).any() else " ".join(map(repr, face.ravel().tolist())) for face in shares
-        ]
-        monkeypatch.setattr(sys, "stdin", io.StringIO("\n".join(lines) + "\n"))
-        code, out, said = run("predict", "-", *options)
-        assert code == 0, said
-        return _weights(out), said
+@pytest.fixture
+def piped(run, monkeypatch: pytest.MonkeyPatch):
+    """What `regress predict -` makes of faces (n, 68, 2) with options: its exit code, numbers, and what it says."""
 
-    shares = _shares(_faces())
-    found, said = piped("--picture", "1280x720")
-    np.testing.assert_allclose(found, given(_faces(), "--picture", "1280x720")[0], atol=2e-5)
+    def predict(faces: np.ndarray, *options: object) -> tuple[int, str, str]:
+        lines = ["" if np.isnan(face).any() else " ".join(map(repr, face.ravel().tolist())) for face in faces]
+        monkeypatch.setattr(sys, "stdin", io.StringIO("\n".join(lines) + "\n"))
+        return run("predict", "-", *options)
+
+    return predict
+
+
+def test_lines_of_shares_are_pixels_where_the_picture_is_known(given, piped):
+    code, out, said = piped(_shares(_faces()), "--picture", "1280x720")
+    assert code == 0, said
+    np.testing.assert_allclose(_weights(out), given(_faces(), "--picture", "1280x720")[0], atol=2e-5)
     assert TOLD not in said
-    assert piped()[1].count(TOLD) == 1
+    code, _, said = piped(_shares(_faces()))
+    assert (code, said.count(TOLD)) == (0, 1)
 
 
 def test_pixels_are_left_alone(given):
     assert TOLD not in given(_faces())[1]
+
+
+def _at_the_edge() -> np.ndarray:
+    """Faces in pixels that leave the picture by and by: one keeps one point in, another has one out."""
+    faces = _faces(count=8)
+    right, left = faces[..., 0].max(axis=1), faces[..., 0].min(axis=1)
+    faces[1, :, 0] += SIZE[0] + 5 - right[1]
+    faces[3, :, 0] += SIZE[0] - 5 - left[3]
+    faces[5, 0] = [-40, 300]
+    return faces
+
+
+def test_all_of_a_take_are_shares_or_none_is(given, piped):
+    """A point outside the picture made its frame one of a square, in a pipe, and a whole take's in a file."""
+    pixels, _ = given(_at_the_edge(), "--picture", "1280x720")
+    found, said = given(_shares(_at_the_edge()), "--picture", "1280x720")
+    np.testing.assert_allclose(found, pixels, atol=2e-5)
+    assert TOLD not in said
+    code, out, said = piped(_shares(_at_the_edge()), "--picture", "1280x720")
+    assert code == 0, said
+    np.testing.assert_allclose(_weights(out), pixels, atol=2e-5)
+
+
+def test_zeros_of_lost_faces_do_not_make_shares_of_pixels(given, piped):
+    faces = _faces(count=8)
+    faces[[0, 3, 4, 6, 7]] = 0
+    known, _ = given(faces[[1, 5]])
+    found, said = given(faces)
+    np.testing.assert_allclose(found[[1, 5]], known, atol=2e-5)
+    assert TOLD not in said
+    code, out, said = piped(faces)
+    assert code == 0, said
+    np.testing.assert_allclose(_weights(out)[[1, 5]], known, atol=2e-5)
+    assert TOLD not in said
+
+
+def test_other_units_are_refused_where_a_picture_is_named(given, piped, run, tmp_path: Path):
+    """From -1 to 1, as some programs write them: nothing says how high such a picture is."""
+    other = 2 * _shares(_faces()) - 1
+    other[..., 0] -= 3
+    np.save(tmp_path / "other.npy", other)
+    for code, _, said in (
+        run("predict", tmp_path / "other.npy", "--picture", "1280x720"),
+        piped(other, "--picture", "1280x720"),
+    ):
+        assert code == 2
+        assert "points are neither pixels nor shares of the picture" in said
+    given(other)

@@ -140,7 +140,7 @@ def evaluate(
         rows=len(rows),
         people=len(people),
         people_in_training=in_training,
-        unseen=_unseen(model, arrays, in_training),
+        unseen=are_unseen(model, arrays, in_training),
         dataset_hash=arrays.description.get("dataset_hash", ""),
         conditions=summaries(ordinary),
         combined=summaries(combined),
@@ -192,7 +192,7 @@ def _check_cameras(model: HeadsetModel, arrays: HeadsetArrays) -> None:
             )
 
 
-def _unseen(model: HeadsetModel, arrays: HeadsetArrays, in_training: int) -> bool:
+def are_unseen(model: HeadsetModel, arrays: HeadsetArrays, in_training: int) -> bool:
     """Whether a model cannot know people of whom the arrays' own training split has so many.
 
     Datasets of one seed share people, however many each has; without a record of the seed nothing is known.

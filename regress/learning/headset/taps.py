@@ -5,7 +5,7 @@ import numpy as np
 from regress.errors import InputError
 from regress.learning.headset.accuracy import summary
 from regress.learning.headset.arrays import HeadsetArrays
-from regress.learning.headset.evaluation import Condition, estimate
+from regress.learning.headset.evaluation import Condition, are_unseen, estimate
 from regress.runtime.headset.network.estimates import Estimates
 from regress.runtime.headset.network.figures import ClipSummary
 from regress.runtime.headset.network.model import Temporal
@@ -66,11 +66,14 @@ def fit_temporal(predictor: HeadsetPredictor, arrays: HeadsetArrays) -> Temporal
     even = np.full_like(taps, 1 / TAPS)
     alone = np.zeros_like(taps)
     alone[:, 0] = 1
+    chosen_on, judged_on = (np.unique(arrays.person[rows[split]]) for split in ("train", "test"))
+    known = int(np.isin(judged_on, chosen_on).sum())
     return Temporal(
         fps=arrays.frames_a_second(),
         taps=tuple(map(tuple, taps.tolist())),
-        people=len(np.unique(arrays.person[rows["train"]])),
+        people=len(chosen_on),
         dataset_hash=arrays.description.get("dataset_hash", ""),
+        unseen=not known and are_unseen(predictor.model, arrays, known),
         scores={
             name: _scores(arrays, rows["test"], estimates["test"], one)
             for name, one in (("one frame", alone), ("mean of five", even), ("taps", taps))

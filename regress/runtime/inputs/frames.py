@@ -9,12 +9,17 @@ import numpy as np
 
 from facegen.conventions import LANDMARK_COUNT
 from regress.errors import InputError
+from regress.runtime.inputs.faults import face_faults
 from regress.runtime.inputs.orders import split_irises
 from regress.runtime.inputs.people import people_of
 from regress.runtime.sample import Sample
 
 MOST_FRAMES = 1_000_000
 """Of one file or folder: nine hours at 30 a second, and 1.1 GB of points."""
+
+
+_REACH = (-0.5, 1.5)
+"""Of shares: a face at a picture's edge has points outside."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,8 +65,19 @@ class Frames:
 
     @property
     def shares(self) -> bool:
-        """Whether points are shares of a picture's width and height, 0 to 1, and no pixels."""
-        return bool(self.usable.any()) and are_shares(self.points[self.usable])
+        """Whether points are shares of a picture's width and height, 0 to 1, and no pixels: all are, or none is."""
+        faces = self._sound_faces()
+        return len(faces) > 0 and are_shares(faces)
+
+    @property
+    def extent(self) -> float:
+        """Width or height of the middle one of the faces, whichever is larger; NaN where there is none."""
+        faces = self._sound_faces()
+        return float(np.median(np.ptp(faces, axis=1).max(axis=1))) if len(faces) else np.nan
+
+    def _sound_faces(self) -> np.ndarray:
+        """Points (k, 68, 2) of faces; a lost one's zeros do not say in which unit the others are."""
+        return self.points[[fault is None for fault in face_faults(self.points)]]
 
     def in_pixels(self, picture_px: tuple[int, int]) -> "Frames":
         """The frames with points in pixels of pictures of this size, of points that are shares of it."""
@@ -112,8 +128,9 @@ def _rows_of(names: tuple[str, ...] | None, rows: np.ndarray | list[int]) -> tup
 
 
 def are_shares(points: np.ndarray) -> bool:
-    """Whether points (..., 2), some of them numbers, all lie within 0 and 1: no face in pixels is so small."""
-    return bool(np.nanmin(points) >= 0 and np.nanmax(points) <= 1)
+    """Whether most of points (..., 2) lie in a picture or about it, as shares of it: no face in pixels is so small."""
+    least, most = _REACH
+    return bool(np.mean(((points >= least) & (points <= most)).all(axis=-1)) > 0.5)
 
 
 def pixels_of(shares: np.ndarray, picture_px: tuple[int, int]) -> np.ndarray:

@@ -8,7 +8,7 @@ import pytest
 from regress.cli import main
 from regress.learning.training import Recipe, train
 from regress.runtime.model import save_model
-from tests.regress.drawn import drawn_dataset
+from tests.regress.drawn import drawn_dataset, drawn_faces
 
 
 @pytest.fixture(scope="module")
@@ -52,6 +52,58 @@ def test_export_writes_all_formats_and_names_them(run, folder, tmp_path, capsys)
 def test_export_writes_one_format(run, folder, tmp_path):
     assert run("export", folder, "--format", "npz", "--out", tmp_path) == 0
     assert [path.name for path in tmp_path.iterdir()] == ["face.npz"]
+
+
+def test_export_writes_every_format_that_is_named(run, folder, tmp_path):
+    """The last one alone was written, without a word."""
+    assert run("export", folder, "--format", "npz", "--format", "json", "--out", tmp_path) == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["face.json", "face.npz"]
+
+
+def test_an_export_is_new_as_a_whole_or_not_at_all(run, folder, tmp_path, capsys):
+    """A header of another model than its source gives weights by wrong names."""
+    for name in ("face.c", "face.h", "face.js"):
+        (tmp_path / name).write_text("old")
+    (tmp_path / "face.d.ts").mkdir()
+    assert run("export", folder, "--format", "c", "--format", "javascript", "--out", tmp_path) == 2
+    assert "face.d.ts: is a folder" in capsys.readouterr().err
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["face.c", "face.d.ts", "face.h", "face.js"]
+    assert {(tmp_path / name).read_text() for name in ("face.c", "face.h", "face.js")} == {"old"}
+
+
+def test_a_neutral_face_in_shares_of_a_picture_is_put_into_pixels(run, tmp_path, capsys):
+    """An export for good: a wide picture taken for a square is another person's face."""
+    (face,) = drawn_faces(np.random.default_rng(2), 1)
+    face = 300 * (face - face.mean(axis=0)) / np.ptp(face) + [640, 360]
+    np.save(tmp_path / "pixels.npy", face[None])
+    np.save(tmp_path / "shares.npy", (face[None] + 0.5) / [1280, 720])
+    given = ("landmarks-default", "--format", "npz", "--neutral")
+
+    def exported(name, *options):
+        assert run("export", *given, tmp_path / f"{name}.npy", *options, "--out", tmp_path / "out") == 0
+        with np.load(tmp_path / "out" / "face.npz") as numbers:
+            return numbers["feature_mean"]
+
+    pixels = exported("pixels")
+    capsys.readouterr()
+    np.testing.assert_allclose(exported("shares", "--picture", "1280x720"), pixels, atol=1e-6)
+    assert capsys.readouterr().err == ""
+    assert np.abs(exported("shares") - pixels).max() > 0.01
+    assert "as shares of a picture's width and height" in capsys.readouterr().err
+    assert run("export", "landmarks-default", "--picture", "1280x720") == 2
+    assert "give --neutral as well" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option", ["--figures", "--out"])
+def test_a_report_is_not_written_over_what_is_read(option, run, folder, tmp_path, capsys):
+    """Figures end as a model's own file does."""
+    before = (folder / "model.json").read_bytes()
+    link = tmp_path / ("figures.json" if option == "--figures" else "page.html")
+    link.symlink_to(folder / "model.json")
+    assert run("report", folder, "--data", tmp_path, option, link) == 2
+    assert f"{option} {link} is also what is read" in capsys.readouterr().err
+    assert run("report", folder, "--data", tmp_path, "--figures", folder / "model.json") == 2
+    assert (folder / "model.json").read_bytes() == before
 
 
 def test_export_of_something_else_is_bad_input(run, tmp_path, capsys):

@@ -179,6 +179,17 @@ def test_a_model_is_reported_by_its_own_scores_without_data(
     assert (code, said.strip()) == (2, f"regress: --data {arrays_folder} is given twice")
 
 
+def test_a_report_is_not_written_over_what_is_read(run, models: tuple[Path, Path], arrays_folder: Path):
+    many, few = models
+    for read in (many / "model.json", few / "model.json", arrays_folder / "arrays.json"):
+        before = read.read_bytes()
+        given = ("headset", "report", many, "--data", arrays_folder, "--against", few)
+        code, _, said = run(*given, "--figures", read)
+        assert (code, len(said.splitlines())) == (2, 1)
+        assert f"--figures {read} is also what is read" in said
+        assert read.read_bytes() == before
+
+
 def test_what_the_frames_before_add_is_reported(run, arrays_folder: Path, tmp_path: Path):
     folder = write_tiny_model(tmp_path / "tiny", width=SIDE, height=SIDE)
     figures = ClipSummary(
@@ -200,6 +211,11 @@ def test_what_the_frames_before_add_is_reported(run, arrays_folder: Path, tmp_pa
     page = out.read_text()
     for word in ("What the frames before add", "frames before, by their taps", "1,234", "0.679"):
         assert word in page
+    assert "clips of the test split" in page
+    known = replace(temporal, unseen=True)
+    describe_headset_model(replace(read_headset_model(folder), temporal=known), folder)
+    assert run("headset", "report", folder, "--data", arrays_folder, "--no-time", "--out", out)[0] == 0
+    assert "people whom neither the network nor the taps have seen" in out.read_text()
 
 
 def test_comparison_is_even_with_itself_and_turns_round(models: tuple[Path, Path], arrays: HeadsetArrays):

@@ -20,7 +20,7 @@ from regress.learning.headset.taps import fit_taps, fit_temporal
 from regress.runtime.headset.network.estimates import Estimates
 from regress.runtime.headset.network.figures import ClipSummary
 from regress.runtime.headset.network.folder import describe_headset_model, read_headset_model
-from regress.runtime.headset.network.model import Temporal
+from regress.runtime.headset.network.model import HeadsetTraining, Temporal
 from regress.runtime.headset.network.temporal import TAPS, convolve
 from tests.regress.headset.drawn import SIDE
 from tests.regress.headset.takes import pictures, write_take
@@ -132,8 +132,11 @@ def as_clips(arrays: HeadsetArrays) -> HeadsetArrays:
 
 
 def test_a_models_taps_are_judged_on_other_people(as_clips: HeadsetArrays):
-    model = SimpleNamespace(cameras=as_clips.cameras, camera_names=NAMES)
+    model = SimpleNamespace(
+        cameras=as_clips.cameras, camera_names=NAMES, dataset_hash="", training=HeadsetTraining()
+    )
     found = fit_temporal(SimpleNamespace(model=model, graph=Noisy(as_clips, 0.1)), as_clips)
+    assert not found.unseen, "nothing tells which data the network is of"
     assert found.fps == pytest.approx(60)
     assert found.people == len(np.unique(as_clips.person[as_clips.split == "train"]))
     assert np.shape(found.taps) == (56, TAPS)
@@ -143,6 +146,19 @@ def test_a_models_taps_are_judged_on_other_people(as_clips: HeadsetArrays):
     assert taps.rmse == pytest.approx(even.rmse, rel=0.1)  # faces that are held want even taps
     assert taps.shake < 0.5 * alone.shake
     assert taps.rows == (as_clips.split == "test").sum()
+
+
+def test_people_of_clips_are_unseen_where_neither_training_has_them(as_clips: HeadsetArrays):
+    """Of data of one seed people may be the same; and sessions of one person may be in both splits of the clips."""
+    clips = replace(as_clips, description=as_clips.description | {"seed": 8, "dataset_hash": "clips"})
+    sessions = replace(clips, person=clips.person // 3, session=clips.person % 3)
+    for arrays, seed, unseen in ((clips, 7, True), (clips, 8, False), (sessions, 7, False)):
+        training = HeadsetTraining(data_seed=seed)
+        model = SimpleNamespace(
+            cameras=clips.cameras, camera_names=NAMES, dataset_hash="network's", training=training
+        )
+        found = fit_temporal(SimpleNamespace(model=model, graph=Noisy(arrays, 0.1)), arrays)
+        assert found.unseen == unseen
 
 
 @pytest.mark.parametrize(

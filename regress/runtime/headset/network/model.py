@@ -82,7 +82,9 @@ class Temporal:
     people, dataset_hash
         Whose clips they were chosen on.
     scores
-        Figures on other people's clips: of one frame alone, of the mean of as many frames, and of the taps.
+        Figures on other clips: of one frame alone, of the mean of as many frames, and of the taps.
+    unseen
+        Whether neither the network nor the taps can know the people of these clips; older models do not say.
     """
 
     fps: Annotated[float, Gt(0), Le(MOST_FPS)]
@@ -90,6 +92,7 @@ class Temporal:
     people: Count
     dataset_hash: str
     scores: dict[str, ClipSummary] = field(default_factory=dict)
+    unseen: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
