@@ -59,12 +59,14 @@ def generate(
 
     Example: facegen generate datasets/tiny.toml --out datasets/out/tiny
     """
-    from facegen.spec import load_spec
+    from facegen.spec import idle_note, load_spec
     from facegen.store import begin, check_folder_is_free, resolve
     from facegen.work import Limits, check_versions, crew_note, plan_work
     from facegen.work import generate as make
 
     dataset = resolve(load_spec(spec), out)
+    if note := idle_note(dataset.spec):
+        say(f"facegen: {spec}: {note}")
     if dry_run:
         check_folder_is_free(dataset)  # else `begin` does
     shards = "" if shards == "none" else shards

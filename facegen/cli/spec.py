@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from facegen.console import counted
+from facegen.console import counted, say
 
 spec_app = typer.Typer(help="Specs: what a dataset is, in TOML.", no_args_is_help=True)
 
@@ -19,7 +19,7 @@ def check(spec: Annotated[Path, typer.Argument(help="A spec, for example dataset
     Example: facegen spec check datasets/default.toml
     """
     from facegen.sessions import check_layout
-    from facegen.spec import load_spec, sample_ranges
+    from facegen.spec import idle_note, load_spec, sample_ranges
     from facegen.store import resolve
 
     checked = load_spec(spec)
@@ -29,6 +29,8 @@ def check(spec: Annotated[Path, typer.Argument(help="A spec, for example dataset
     check_layout(checked, dataset.rigs, dataset.headset, rendered=rendered)
     people, samples = counted(checked.people, "person", "people"), counted(plan.samples, "sample")
     print(f"{spec}: good; {people}, {samples}, {rendered} of them rendered")
+    if note := idle_note(checked):
+        say(f"facegen: {spec}: {note}")
 
 
 @spec_app.command()

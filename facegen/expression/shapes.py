@@ -83,7 +83,7 @@ def draw_dense(rng: np.random.Generator, size: int, *, correlation: float) -> np
 
 
 def draw_extreme(rng: np.random.Generator, size: int, *, correlation: float) -> np.ndarray:
-    """Three shapes at 0.75 or more, the eyes turned as far now and then."""
+    """Three shapes at 0.75 or more, the eyes turned as far now and then; subtle faces among them are scaled down."""
     key = rng.random((size, len(_FIRST)))
     bound = np.partition(key, EXTREME_SHAPES - 1, axis=1)[:, EXTREME_SHAPES - 1 : EXTREME_SHAPES]
     weights = _draw_active(rng, key <= bound, correlation=correlation)

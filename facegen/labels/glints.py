@@ -88,8 +88,9 @@ class Glints:
         LabelKey(
             name="glints",
             meaning="mirror images of LEDs in the picture: `lamp`, `eye`, `surface` (`cornea`, `sclera`, `tears`, "
-            "`lens` of glasses), `point_2d`, `point_camera`, `seen` (not behind a lid, a lash or the nose, for the "
-            "camera or the LED); an LED without an image on a surface has no entry",
+            "`lens` of glasses), `point_2d`, `point_camera`, `seen` (for the camera and the LED not behind a lid, a "
+            "lash, the nose, the housing or a frame of glasses, and within the rim of the camera's lens); an LED "
+            "without an image on a surface has no entry",
             unit="px; m, camera",
         ),
     )

@@ -149,6 +149,13 @@ def _check_arrays(arrays: dict[str, np.ndarray], record: dict, *, where: str) ->
         array = arrays[name]
         if array.dtype.kind not in "iu" or not array.size or array.min() < low or array.max() >= high:
             raise FormatError(f"{where}: array {name!r} must hold whole numbers from {low} to {high - 1}")
+    for name in ("upper_lid", "lower_lid"):
+        for side, margin, lids in zip(("left", "right"), arrays[name], arrays["lid_vertices"], strict=True):
+            if len(apart := np.setdiff1d(margin, lids)):
+                raise FormatError(
+                    f"{where}: array {name!r} has vertex {apart[0]} on the {side} eye's margin, and 'lid_vertices' of "
+                    "this eye does not; margins close with their lid, so add all of theirs there"
+                )
     if not np.isin(arrays["part"], [int(part) for part in Part]).all():
         raise FormatError(f"{where}: array 'part' has a number that stands for no part of a head")
 

@@ -2,7 +2,7 @@
 
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -74,6 +74,7 @@ def build_head(path: Path, markup_path: Path | None, *, name: str) -> AddedHead:
         landmarks, weights = _landmarks(markup, mesh)
         point = landmarks[np.arange(LANDMARK_COUNT), weights.argmax(axis=1)]
         _check_face(vertices[point])
+        mesh = _seen_from_outside(mesh, vertices, point)
         part, (upper, lower) = _parts(mesh, vertices, point), _margins(markup, mesh, vertices, point)
     except InputError as error:
         raise InputError(f"{path} with {markup_path}: {error}") from error
@@ -154,6 +155,18 @@ def _check_face(points: np.ndarray) -> None:
         raise InputError(
             "landmark 0 is the subject's right end of the jaw, at x < 0; it lies left of landmark 16"
         )
+
+
+def _seen_from_outside(mesh: HeadMesh, vertices: np.ndarray, point: np.ndarray) -> HeadMesh:
+    """The mesh, with all faces turned round where the skin at brows and nose looks into the head."""
+    before = point[
+        [i for group in ("right_brow", "left_brow", "nose_bridge") for i in LANDMARK_GROUPS[group]]
+    ]
+    skin = mesh.faces[mesh.part == Part.SKIN, :3]
+    a, b, c = np.moveaxis(vertices[skin[np.isin(skin, before).any(axis=1)]], 1, 0)
+    if np.cross(b - a, c - a)[:, 2].sum() >= 0.0:
+        return mesh
+    return replace(mesh, faces=mesh.faces[:, [0, 2, 1, 3]], uv=mesh.uv[:, [0, 2, 1, 3]])
 
 
 def _landmarks(markup: HeadMarkup, mesh: HeadMesh) -> tuple[np.ndarray, np.ndarray]:

@@ -55,7 +55,8 @@ class Rig:
         (2, U) and (2, L) vertex indices along the lid margins, subject's left eye first, each from the inner
         to the outer canthus, both canthi included; the shorter of a pair repeats its last vertex.
     lid_vertices
-        (2, M) indices of the skin and lash vertices that follow a closing lid, padded with -1.
+        (2, M) indices of the skin and lash vertices that follow a closing lid, those of the margins among them, padded
+        with -1.
     licence, source, version
         Where the shapes come from and under which terms pictures of them may be used.
     missing

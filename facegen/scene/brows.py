@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from facegen.conventions import LANDMARK_GROUPS, Part
+from facegen.errors import InputError
 from facegen.rigs import Rig
 from facegen.scene.strands import strand_tubes
 
@@ -59,6 +60,11 @@ def draw_brows(rng: np.random.Generator, rig: Rig, *, density: float = 1.0, widt
         The person's stream.
     density, width
         Relative to `STRANDS` and `HALF_WIDTH_M`.
+
+    Raises
+    ------
+    InputError
+        Where no skin that looks ahead is near a brow's landmarks.
     """
     count = round(STRANDS * density)
     landmarks = (rig.landmark_weights[..., None] * rig.vertices[rig.landmark_vertices]).sum(axis=1)
@@ -99,6 +105,11 @@ def _on_skin(
     away = np.linalg.norm(corners.mean(axis=1)[:, None] - line, axis=-1).min(axis=1)
     area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2]
     near = (away < NEAR_M) & (area > 0.0)  # and facing the front
+    if not near.any():
+        raise InputError(
+            f"rig {rig.name!r} has no skin that looks ahead within {1e3 * NEAR_M:.0f} mm of a brow's landmarks, where "
+            "brows would grow; see with facegen rig preview where they lie, and which way the faces look"
+        )
     triangles, (a, b, c), area = triangles[near], np.moveaxis(corners[near, :, :2], 1, 0), area[near]
     here = line_points[:, None]
     weights = np.stack(

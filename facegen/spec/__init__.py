@@ -2,6 +2,7 @@
 
 from facegen.number_ranges import format_ranges, format_runs, listed, sample_numbers, sample_ranges, without
 from facegen.spec.distribution import Distribution, draw
+from facegen.spec.idle_keys import idle_note
 from facegen.spec.layout_ranges import LayoutRanges
 from facegen.spec.loading import LABEL_VERSION, load_spec, parse_spec, spec_hash, spec_schema, spec_table
 from facegen.spec.reference import spec_reference
@@ -21,6 +22,7 @@ __all__ = [
     "draw",
     "format_ranges",
     "format_runs",
+    "idle_note",
     "listed",
     "load_spec",
     "parse_spec",

@@ -14,7 +14,7 @@ editors that know TOML schemas use it where a spec's first line is `#:schema spe
 
 *Distributions* are a number, `{uniform = [low, high]}`, or `{normal = [mean, sd], within = [low, high]}`, a normal
 distribution cut at `within` (3 standard deviations without it). Every draw must lie between the bounds that the table
-allows.
+allows. In sequences pupils wander by up to 9 % about the radius that was drawn, also past these bounds.
 """
 
 _UNITS = {"px": "pixels", "widths": "face widths", "fps": "frames/s", "m": "metres", "deg": "degrees"}

@@ -93,7 +93,7 @@ class Identity:
     """Factor on how much people differ beyond sex, age and ancestry; 0 gives one face for each of these."""
 
 
-_MIXTURE = """How often each component of the expression model makes a face: relative weights; their sum counts as 1.
+_MIXTURE = """How often each component of the expression model makes a still face, as weights whose sum counts as 1.
 
     Where the table stands in a spec, components that it does not name are left out.
     """
@@ -114,11 +114,14 @@ class Expression:
     model: Literal[1] = 1
     """Version of the expression model."""
     left_right_correlation: Share = 0.9
-    """Correlation of the strengths of left and right; 1 gives symmetric faces but for ``one_sided``."""
+    """Correlation of the strengths of left and right; 1 gives symmetric faces but for ``one_sided``, ``wink``, peaks on
+    one side, a jaw or mouth that goes sideways, and lids that follow the gaze."""
     subtle: Share = 0.3
-    """Share of faces that are scaled down, log-uniformly to between 2 and 100 %."""
+    """Share of still faces that are scaled down, log-uniformly to between 2 and 100 %; combined, wink and tongue are
+    not, extreme is."""
     resting: Share = 0.2
-    """Largest weight that each shape has at rest, in rest, emotion, speech, movement and one_sided faces."""
+    """Largest weight that each shape has at rest: in rest, emotion, speech, movement, one_sided and talk faces, and in
+    clips."""
     blinks: Share = 0.0
     """Share of still faces in the middle of a blink, whatever else they do; half of these have shut both eyes."""
     mixture: Mixture = Mixture(**{name: component.share for name, component in COMPONENTS.items()})

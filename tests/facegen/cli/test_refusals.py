@@ -67,6 +67,19 @@ def test_bad_specs_are_refused_by_every_command_that_reads_them(tmp_path, anny, 
         assert word in str(checked.exception)
 
 
+def test_keys_that_do_not_count_are_told_and_taken(tmp_path, anny):
+    spec = tmp_path / "spec.toml"
+    spec.write_text(GOOD.replace('"still"', '"sequence"') + "[expression]\nsubtle = 0.9\n")
+    said = "expression.subtle: no sample depends on it"
+    for command in (
+        ["spec", "check", str(spec)],
+        ["generate", str(spec), "--out", str(tmp_path), "--dry-run"],
+    ):
+        result = CliRunner().invoke(app, command)
+        assert said in result.stderr, result.exception
+        assert said not in result.stdout
+
+
 def test_a_missing_spec_and_a_missing_rig(tmp_path, anny):
     refused(facegen("generate", tmp_path / "no.toml", "--out", tmp_path / "out"), 2, "there is no such spec")
     result = facegen(

@@ -59,13 +59,20 @@ def _in_file(vectors: np.ndarray) -> np.ndarray:
 
 
 def write_head(
-    rig: Rig, folder: Path, *, rename=lambda name: name, left_out: tuple[str, ...] = (), lids: bool = False
+    rig: Rig,
+    folder: Path,
+    *,
+    rename=lambda name: name,
+    left_out: tuple[str, ...] = (),
+    lids: bool = False,
+    inside_out: bool = False,
 ) -> tuple[Path, Path]:
     """Write ``head.glb`` and ``head.json``; return their paths.
 
     The skin, the teeth and so on are primitives of one mesh, told apart by their materials; every other
     morph target is sparse. ``rename`` spells the shapes; those in ``left_out`` are not written.
-    ``lids`` marks the lid margins; without it they are found from the landmarks.
+    ``lids`` marks the lid margins; without it they are found from the landmarks. The corners of a head that is
+    ``inside_out`` go round the other way.
     """
     out, gltf = (buffer := _Buffer()), buffer.gltf
     shapes = [name for name in BLENDSHAPES if name not in left_out]
@@ -97,7 +104,9 @@ def write_head(
         primitives.append(
             gl.Primitive(
                 attributes=attributes,
-                indices=out.accessor(index.astype("<u4").ravel()),
+                indices=out.accessor(
+                    index.astype("<u4").reshape(-1, 3)[:, :: -1 if inside_out else 1].ravel()
+                ),
                 targets=targets,
                 material=len(gltf.materials) - 1,
             )

@@ -119,6 +119,17 @@ def test_damaged_arrays_are_refused(anny: Rig, tmp_path: Path, damage: str) -> N
         load_rig("anny", tmp_path)
 
 
+@pytest.mark.parametrize("margin", ["upper_lid", "lower_lid"])
+def test_a_margin_that_does_not_close_with_its_lid_is_refused(anny: Rig, tmp_path: Path, margin: str) -> None:
+    """Closing the lids ended in a KeyError."""
+    vertex = getattr(anny, margin)[1, 3]
+    lids = anny.lid_vertices.copy()
+    lids[1, lids[1] == vertex] = -1
+    save_rig(dataclasses.replace(anny, lid_vertices=lids), tmp_path)
+    with pytest.raises(InputError, match=f"'{margin}' has vertex {vertex} on the right eye's margin"):
+        load_rig("anny", tmp_path)
+
+
 @pytest.mark.parametrize("content", ["", "[]", '{"format": 0}', '{"name": "anny"}'])
 def test_damaged_record_is_refused(anny: Rig, tmp_path: Path, content: str) -> None:
     copy_of(anny, tmp_path).with_suffix(".json").write_text(content)

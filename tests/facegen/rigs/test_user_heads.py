@@ -16,8 +16,9 @@ from facegen.errors import InputError
 from facegen.formats.gltf import read_gltf
 from facegen.labels import label_keypoints
 from facegen.labels.contour import paths_of
+from facegen.randomness import stream
 from facegen.rigs import Rig, evaluate, load_rig
-from facegen.rigs.building import add_rig
+from facegen.rigs.building import RIGS, add_rig
 from facegen.rigs.callipers import MEASURES, measures_mm
 from facegen.rigs.gltf_mesh import blendshape_sources
 from facegen.rigs.human_eyes import EYE_RADIUS_M
@@ -25,6 +26,7 @@ from facegen.rigs.lash_strips import lash_strips
 from facegen.rigs.lid_margins import lid_margins
 from facegen.sampling import draw_samples
 from facegen.sampling.plan import plan_dataset
+from facegen.scene.brows import draw_brows
 from facegen.scene.lids import crease_fields
 from facegen.spec import parse_spec
 from facegen.store import column_array, keypoint_schema, keypoint_table, write_shard
@@ -76,6 +78,36 @@ def test_a_head_without_identities_is_measured_for_the_page_of_statistics(glb: R
     assert all(np.isfinite(size).all() for size in sizes.values())
 
 
+def test_a_head_whose_faces_go_round_the_other_way_is_turned_outside(anny: Rig, tmp_path: Path):
+    """Its keypoints were right, and every picture of it failed at the brows."""
+    heads = []
+    for name, inside_out in (("right", False), ("wrong", True)):
+        (tmp_path / name).mkdir()
+        _, added = add_rig(
+            *write_head(anny, tmp_path / name, inside_out=inside_out), name=name, folder=tmp_path
+        )
+        heads.append(added.rig)
+    right, wrong = heads
+
+    def corners(rig: Rig) -> set:
+        """Each face from its first vertex on, with its texture."""
+        turned = [np.roll(np.arange(3), -first) for first in rig.faces[:, :3].argmin(axis=1)]
+        rows = np.arange(len(turned))[:, None]
+        return {
+            (*face.tolist(), *uv.ravel().tolist())
+            for face, uv in zip(rig.faces[rows, turned], rig.uv[rows, turned], strict=True)
+        }
+
+    assert corners(right) == corners(wrong)
+    brows = draw_brows(stream(1, "look", 0), wrong)
+    assert len(brows.triangle) > 300
+    backwards = replace(wrong, faces=wrong.faces[:, [0, 2, 1, 3]])
+    with pytest.raises(
+        InputError, match=r"rig 'wrong' has no skin that looks ahead within 12 mm of a brow's"
+    ):
+        draw_brows(stream(1, "look", 0), backwards)
+
+
 @pytest.mark.parametrize("turns", [0, 1, 2])
 def test_margins_are_those_that_were_marked_whichever_corner_a_triangle_begins_with(glb: Rig, turns: int):
     """And a margin that is shorter than its other side's, which ends with its last vertex twice."""
@@ -112,9 +144,9 @@ def test_the_list_of_rigs_says_what_is_built_and_what_was_added(files, tmp_path:
     monkeypatch.setenv("FACEGEN_RIGS", str(tmp_path))
     add_rig(*files, name="mine")
     lines = [line.split() for line in CliRunner().invoke(app, ["rig", "list"]).output.splitlines()]
-    assert [line[0] for line in lines] == ["anny", "ict", "mine"]
-    assert lines[0][1:3] == lines[1][1:3] == ["not", "built"]
-    assert lines[2][1:3] == ["added", load_rig("mine").licence]
+    assert [line[0] for line in lines] == [*RIGS, "mine"]
+    assert all(line[1:3] == ["not", "built"] for line in lines[:-1])
+    assert lines[-1][1:3] == ["added", load_rig("mine").licence]
 
 
 def test_missing_shapes_are_named_and_zero_and_spelling_does_not_matter(anny: Rig, tmp_path: Path) -> None:

@@ -16,9 +16,9 @@ from facegen.expression.sides import LEFT, RIGHT, draw_shapes, draw_sides
 from facegen.geometry import angles_from_direction
 from facegen.randomness import stream
 from facegen.sampling import COMPONENT_NAMES
-from facegen.sampling.faces import DrawnFaces, draw_faces
+from facegen.sampling.faces import LIDS_FOLLOW_DOWN, LIDS_FOLLOW_UP, DrawnFaces, draw_faces
 from facegen.sampling.gaze import axes_from_weights
-from facegen.spec import Spec, load_spec, parse_spec
+from facegen.spec import Spec, load_spec, parse_spec, spec_schema
 
 DATASETS = Path(__file__).resolve().parents[3] / "datasets"
 
@@ -209,13 +209,39 @@ def test_left_and_right_correlate_as_the_spec_says(correlation):
     for left, right in (sides.T, (shapes[:, LEFT[3]], shapes[:, RIGHT[3]])):
         assert np.corrcoef(left, right)[0, 1] == pytest.approx(correlation, abs=0.02)
         assert np.histogram(right, 10, (0, 1))[0] == pytest.approx(len(right) / 10, rel=0.08)
-    others = {name: 1.0 for name, part in COMPONENTS.items() if name != "one_sided" and part.conjugate}
+    uneven = ("one_sided", "wink")
+    others = {name: 1.0 for name, part in COMPONENTS.items() if name not in uneven and part.conjugate}
     faces = drawn(spec(left_right_correlation=correlation, mixture=others), 2)
+    apart = np.abs(faces.weights[:, LEFT] - faces.weights[:, RIGHT])
     # lids follow the gaze, and the two eyes turn by angles that differ a little
-    lids = [BLENDSHAPES[index].startswith(("eyeBlink", "eyeWide")) for index in LEFT]
-    equal = (faces.weights[:, LEFT] == faces.weights[:, RIGHT]) | lids
-    same = equal.all(axis=1).mean()
-    assert same == 1.0 if correlation == 1 else same < 0.6
+    allowed, lids = np.zeros_like(apart), []
+    for lid, looks, share in (("Blink", "LookDown", LIDS_FOLLOW_DOWN), ("Wide", "LookUp", LIDS_FOLLOW_UP)):
+        left, right = (column(faces, f"eye{looks}{side}") for side in ("Left", "Right"))
+        lids.append(LEFT.index(BLENDSHAPE_INDEX[f"eye{lid}Left"]))
+        allowed[:, lids[-1]] = share * np.abs(left - right) + 1e-12
+    same = (apart <= allowed).all(axis=1)
+    # which of blink and wide is dropped may then differ as well, where both are as strong
+    torn = ~same & (apart[:, lids] > allowed[:, lids]).all(axis=1)
+    assert (same | torn).all() and torn.mean() < 0.001 if correlation == 1 else same.mean() < 0.6
+
+
+@pytest.mark.parametrize("name", ["one_sided", "wink"])
+def test_faces_that_are_named_for_it_have_two_sides_whatever_the_correlation(name):
+    meaning = spec_schema()["$defs"]["Expression"]["properties"]["left_right_correlation"]["description"]
+    assert f"``{name}``" in meaning
+    faces = drawn(spec(left_right_correlation=1.0, resting=0.0, mixture={name: 1.0}), 1)
+    apart = np.abs(column(faces, "eyeBlinkLeft") - column(faces, "eyeBlinkRight"))
+    assert (apart > 0.3).mean() > 0.1
+
+
+def test_a_spec_says_which_components_are_never_subtle():
+    """And that extreme faces are: a third of them have not three shapes at 0.75."""
+    said = spec_schema()["$defs"]["Expression"]["properties"]["subtle"]["description"]
+    whole = [name for name, part in COMPONENTS.items() if not part.subtle]
+    assert f"{', '.join(whole[:-1])} and {whole[-1]} are not" in " ".join(said.split())
+    assert "subtle" in COMPONENTS["extreme"].meaning
+    faces = drawn(spec(mixture={"extreme": 1.0}, subtle=1.0), 1)
+    assert np.mean(faces.weights.max(axis=1) < 0.75) > 0.5
 
 
 def test_one_sided_faces_move_on_one_side():

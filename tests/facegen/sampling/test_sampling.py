@@ -14,7 +14,8 @@ from facegen.rigs import eye_centers
 from facegen.sampling import COMPONENT_NAMES, draw_samples, plan_dataset
 from facegen.sampling.gaze import axes_from_target, axes_from_weights, weights_from_axes
 from facegen.sampling.people import _split_of_everyone, split_of
-from facegen.spec import parse_spec
+from facegen.spec import idle_note, parse_spec, spec_hash
+from facegen.spec.idle_keys import IDLE
 from facegen.validation.ranges import impossible
 
 STILL = {"version": 1, "kind": "still", "seed": 7, "people": 450, "still": {"neutral": 1, "faces": 6}}
@@ -137,6 +138,37 @@ def test_shapes_that_a_rig_lacks_are_zero_and_nothing_else_moves(anny, tmp_path,
     whole.weights[:, zero] = 0.0
     for field in fields(whole):
         np.testing.assert_array_equal(getattr(whole, field.name), getattr(less, field.name))
+
+
+IDLE_VALUES = {
+    "still": {"faces": 2},
+    "sequence": {"sessions": 2},
+    "playback": {"recording": "none.csv", "fps": 30},
+    "gaze.wide": {"wide": 0.5},
+    "gaze": {"yaw_deg": 5},
+    "expression.mixture": {"mixture": {"speech": 1.0}},
+    "expression.subtle": {"subtle": 0.9},
+    "expression.blinks": {"blinks": 0.9},
+    "expression": {"resting": 0.0},
+}
+"""For each idle key or table, what stands in its table."""
+
+
+@pytest.mark.parametrize(("kind", "name"), [(kind, name) for kind, names in IDLE.items() for name in names])
+def test_keys_that_are_told_as_idle_change_no_sample_but_the_hash(anny, tmp_path, kind, name):
+    (tmp_path / "take.csv").write_text(
+        live_link_csv(np.full((20, len(BLENDSHAPES)), 0.3), np.arange(20) / 30)
+    )
+    own = {"playback": {"recording": str(tmp_path / "take.csv"), "fps": 30}} if kind == "playback" else {}
+    table = {"version": 1, "kind": kind, "seed": 7, "people": 300, **own}
+    given = {name.split(".")[0]: IDLE_VALUES[name]}
+    plain, idle = (parse_spec(table | more, where="test") for more in ({}, given))
+    one, other = (draw_samples(plan_dataset(each), anny, 1) for each in (plain, idle))
+    for field in fields(one):
+        np.testing.assert_array_equal(getattr(one, field.name), getattr(other, field.name))
+    assert spec_hash(plain, asset_sha256={}) != spec_hash(idle, asset_sha256={})
+    assert not idle_note(plain)
+    assert idle_note(idle).startswith(f'{name}: no sample depends on it where kind = "{kind}"')
 
 
 def test_neutral_faces_are_neutral_and_look_ahead(anny):
