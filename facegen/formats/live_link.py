@@ -36,9 +36,15 @@ ROTATIONS: tuple[str, ...] = tuple(
 
 _TIMECODE = re.compile(r"(\d{1,9}):(\d{1,9}):(\d{1,9})([:;])(\d{1,9}(?:\.\d{1,20})?)")
 
-_DROPPED = 4
-"""Numbers that drop-frame timecode, ``HH:MM:SS;FF``, leaves out in each minute but every tenth: so 59.94 frames a
-second keep step with the clock (SMPTE ST 12-1)."""
+_SLOWER_RATES = (24, 25, 30)
+"""What else apps count, by the largest number of a frame: of 60 a second all but takes of two rows a second pass 30."""
+
+_LONG_S, _DIFFERENT = 2, 12
+"""Seconds of a take, and numbers of frames that it must have, before its timecode is taken to count slower than 60."""
+
+_DROPPED_S = 1 / 15
+"""Of each minute but every tenth, what drop-frame timecode, ``HH:MM:SS;FF``, leaves out: four numbers of 60 a second,
+or two of 30, so that 59.94 and 29.97 frames a second keep step with the clock (SMPTE ST 12-1)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +74,8 @@ def read_live_link(path: str | os.PathLike[str], *, fps: float | None = None) ->
     path
         The file; columns may stand in any order and be spelled with or without a capital.
     fps
-        Rows a second. Without it the time comes from the timecodes, whose frames count 60 a second.
+        Rows a second. Without it the time comes from the timecodes, whose frames count 60 a second, or 24, 25 or 30
+        where none of two seconds or more is larger.
 
     Raises
     ------
@@ -135,18 +142,27 @@ def _timecode(time_s: float) -> str:
 
 
 def _timecode_seconds(timecodes: Sequence[str], path: Path) -> np.ndarray:
-    seconds = np.empty(len(timecodes))
+    minutes, whole, frames = np.empty((3, len(timecodes)))
+    dropping = np.zeros(len(timecodes), dtype=bool)
     for row, timecode in enumerate(timecodes):
         match = _TIMECODE.fullmatch(timecode)
         if match is None:
             raise FormatError(f"{path}: row {row + 2} has timecode {timecode!r}; HH:MM:SS:FF.mmm is needed")
-        hours, minutes, whole, frames = (float(match[group]) for group in (1, 2, 3, 5))
-        minutes += hours * 60
-        seconds[row] = minutes * 60 + whole + frames / TIMECODE_RATE
-        if match[4] == ";":
-            seconds[row] -= _DROPPED * (minutes - minutes // 10) / TIMECODE_RATE
-            seconds[row] *= 1.001
+        hours, minutes[row], whole[row], frames[row] = (float(match[group]) for group in (1, 2, 3, 5))
+        minutes[row] += hours * 60
+        dropping[row] = match[4] == ";"
+    rate = _rate(minutes * 60 + whole, np.floor(frames))
+    seconds = minutes * 60 + whole + frames / rate
+    dropped_s = _DROPPED_S * (minutes - minutes // 10)
+    seconds = np.where(dropping, (seconds - dropped_s) * 1.001, seconds)
     day = 24 * 3600
     # A take across midnight starts again at 00:00:00.
     seconds += day * np.cumsum(np.concatenate([[0], np.diff(seconds) < -day / 2]))
     return seconds - seconds[0]
+
+
+def _rate(seconds: np.ndarray, frames: np.ndarray) -> int:
+    """Timecode frames a second of whole seconds (n,) and the frames (n,) in them."""
+    if np.ptp(seconds) < _LONG_S or len(np.unique(frames)) < _DIFFERENT:
+        return TIMECODE_RATE
+    return next((rate for rate in _SLOWER_RATES if frames.max() < rate), TIMECODE_RATE)

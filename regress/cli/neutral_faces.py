@@ -59,7 +59,8 @@ def neutral_faces(model: Model, frames: Frames, neutral: str) -> dict[str | None
     frames
         Rows that cannot be used have NaN for their points.
     neutral
-        ``"none"``; ``"auto"``; what `named_rows` takes; or a file, which is of every face.
+        ``"none"``; ``"auto"``; ``"first"``, each face's first usable frame; what `named_rows` takes; or a file, which
+        is of every face.
 
     Raises
     ------
@@ -71,6 +72,9 @@ def neutral_faces(model: Model, frames: Frames, neutral: str) -> dict[str | None
         return dict.fromkeys(takes)
     if neutral == "auto":
         return {face: _found(model, take, _called(face)) for face, take in takes.items()}
+    if neutral == "first":
+        firsts = {face: np.flatnonzero(take.usable)[:1] for face, take in takes.items()}
+        return {face: takes[face].take(rows) if len(rows) else None for face, rows in firsts.items()}
     named = {face: named_rows(take, neutral) for face, take in takes.items()}
     if any(named.values()):
         seen = {face: [row for row in rows if takes[face].usable[row]] for face, rows in named.items()}
@@ -107,7 +111,8 @@ def neutral_file(neutral: str, source: str, *, labels: str = "") -> Frames:
     """
     if not Path(neutral).exists():
         raise InputError(
-            f"--neutral {neutral!r} is neither a frame of {source}{labels}, nor a file; auto and none are allowed too"
+            f"--neutral {neutral!r} is neither a frame of {source}{labels}, nor a file; first, auto and none are "
+            "allowed too"
         )
     return sound_rows(read_frames(neutral))
 

@@ -52,9 +52,10 @@ def predict(
         str | None,
         typer.Option(
             "--neutral",
-            metavar="FRAME|FILE|auto|none",
+            metavar="FRAME|FILE|first|auto|none",
             help="The person's neutral face: a frame of INPUT by its label, frames FIRST-LAST, another "
-            "file of landmarks, auto, which looks for it, or none, as without this option.",
+            "file of landmarks, first, the first frame of each face or folder, auto, which looks for it, or none, as "
+            "without this option.",
         ),
     ] = None,
     strict: Annotated[

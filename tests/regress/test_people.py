@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from facegen.conventions import LANDMARK_COUNT
-from regress.cli.neutral_faces import named_rows
+from facegen.formats import write_pts
+from regress.cli.neutral_faces import named_rows, neutral_faces
 from regress.runtime.inputs import Frames, read_frames
 from regress.runtime.inputs.people import people_of
 from tests.regress.drawn import drawn_faces
@@ -96,3 +97,51 @@ def test_a_picture_is_named_for_everyone_in_it(frames: Frames):
     takes = [frames.take(rows) for rows in frames.takes().values()]
     assert [named_rows(take, "1") for take in takes] == [[1], [1]]
     assert [named_rows(take, "2") for take in takes] == [[], [2]]
+
+
+def _folders(path: Path, name: str) -> Path:
+    """Two people's films, each in a folder of its own; of the second film's pictures one has no face."""
+    for folder, shown in (("001", range(3)), ("002", (0, 2, 3, 4))):
+        (path / folder).mkdir()
+        for number in shown:
+            face = FACES[int(folder) - 1] + number
+            if name == "pts":
+                write_pts(path / folder / f"{number:06d}.pts", face)
+            else:
+                np.savetxt(path / folder / f"S{folder}_001_{number:08d}_landmarks.txt", face)
+    return path
+
+
+@pytest.mark.parametrize("name", ["pts", "ck_plus"])
+def test_each_folder_is_a_take_with_a_neutral_face_of_its_own(
+    name: str, run, quick_model_folder, quick_model, tmp_path: Path
+):
+    frames = read_frames(_folders(tmp_path, name))
+    assert {face: rows.tolist() for face, rows in frames.takes().items()} == {
+        "001": [0, 1, 2],
+        "002": [3, 4, 5, 6],
+    }
+    calm = neutral_faces(quick_model, frames, "first")
+    assert {face: take.labels for face, take in calm.items()} == {
+        "001": frames.labels[:1],
+        "002": frames.labels[3:4],
+    }
+    named = neutral_faces(quick_model, frames, frames.labels[0])
+    assert named["002"] is None, "another person's face is not neutral for this one"
+    code, out, err = run("predict", quick_model_folder, tmp_path, "--neutral", "first")
+    assert code == 0, err
+    assert len(out.splitlines()) == 8
+
+
+def test_numbers_of_films_in_folders_go_on_and_count_lost_pictures(tmp_path: Path):
+    frames = read_frames(_folders(tmp_path, "pts"))
+    assert frames.numbers.tolist() == [0, 1, 2, 3, 5, 6, 7]
+    assert read_frames(tmp_path / "002").numbers.tolist() == [0, 2, 3, 4]
+    assert read_frames(tmp_path / "002").faces is None
+
+
+def test_a_first_frame_without_a_face_is_not_neutral(quick_model):
+    points = FACES[:1].repeat(3, axis=0)
+    points[0] = np.nan
+    frames = Frames(points=points, labels=("a", "b", "c"), time_s=None, source="a.npy")
+    assert neutral_faces(quick_model, frames, "first")[None].labels == ("b",)

@@ -9,7 +9,7 @@ from facegen.conventions import LANDMARK_COUNT
 from facegen.documents import read_text
 from facegen.formats.litter import is_litter
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames, stacked
+from regress.runtime.inputs.frames import Frames, of_folders, stacked
 
 _ENDING = "_landmarks.txt"
 
@@ -27,12 +27,13 @@ def is_ck_plus(path: Path) -> bool:
 def read_ck_plus(path: Path) -> Frames:
     """Faces in the order of subject, sequence and frame; ``S005_001_00000011`` is what a frame is called.
 
-    A sequence goes from neutral to the peak of an expression: its first frame is one for ``--neutral``.
+    A sequence goes from neutral to the peak of an expression, and is a take of its own: ``--neutral first`` is for it.
     """
     files = sorted(_files(path)) if path.is_dir() else [path]
     labels = tuple(file.name.removesuffix(_ENDING) for file in files)
     points, _ = stacked(map(_face, files), path)
-    return Frames(points=points, labels=labels, time_s=None, source=str(path))
+    folders = [file.parent.relative_to(path).as_posix() if path.is_dir() else "" for file in files]
+    return of_folders(Frames(points=points, labels=labels, time_s=None, source=str(path)), folders)
 
 
 def _files(folder: Path) -> Iterator[Path]:

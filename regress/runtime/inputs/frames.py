@@ -41,7 +41,7 @@ class Frames:
     numbers : (n,) int64 or None
         Of the pictures that the faces are of, none less than the one before, where the file counts them.
     faces : tuple of str or None
-        Who each face is, where pictures of a film have several.
+        Who each face is, where pictures of a film have several; or the folder of a film of its own.
     picture_names : tuple of str or None
         What the picture that each is of is called, where pictures have several faces with labels of their own.
     picture_px
@@ -102,8 +102,10 @@ class Frames:
         """Rows (k,) of each face, in the order of their first ones; where pictures have one face, all rows of None."""
         if self.faces is None:
             return {None: np.arange(len(self.labels))}
-        faces = np.array(self.faces)
-        return {face: np.flatnonzero(faces == face) for face in dict.fromkeys(self.faces)}
+        rows: dict[str | None, list[int]] = {}
+        for row, face in enumerate(self.faces):
+            rows.setdefault(face, []).append(row)
+        return {face: np.array(each) for face, each in rows.items()}
 
     def at_rate(self, fps: float) -> "Frames":
         """The frames with times of a camera of so many pictures a second.
@@ -159,6 +161,11 @@ def of_pictures(
         return frames
     faces = faces or people_of(frames.points, pictures, first=1)
     return replace(frames, faces=tuple(faces), picture_names=tuple(names))
+
+
+def of_folders(frames: Frames, folders: Sequence[str]) -> Frames:
+    """The frames as a take for each of the folders that they lie in: films, and people, of their own."""
+    return frames if len(set(folders)) < 2 else replace(frames, faces=tuple(folders))
 
 
 def stacked(faces: Iterable[np.ndarray], path: Path) -> tuple[np.ndarray, np.ndarray | None]:

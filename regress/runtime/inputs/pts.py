@@ -3,6 +3,8 @@
 import re
 import shlex
 from collections.abc import Sequence
+from dataclasses import replace
+from itertools import groupby
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +13,7 @@ from facegen.formats import read_pts
 from facegen.formats.litter import is_litter
 from facegen.formats.natural_order import natural_order
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames, stacked
+from regress.runtime.inputs.frames import Frames, of_folders, stacked
 from regress.runtime.inputs.orders import COUNTS, COUNTS_SAID, seventy
 
 _PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".webp")
@@ -37,8 +39,9 @@ def read_one(path: Path) -> Frames:
 def read_folder(path: Path) -> Frames:
     """All ``.pts`` files of a folder and those below it, as 300-W has them; ``frame_2`` before ``frame_10``.
 
-    A face is called by its file's name, with the folders between where there are some. A number in the names that
-    counts a film's pictures is theirs, so that those without a face take their time.
+    A face is called by its file's name, with the folders between where there are some. Each folder is a take of its
+    own, as 300-VW's films are. A number in the names that counts a film's pictures is theirs, so that those without a
+    face take their time.
     """
     files = sorted(
         (file for file in path.rglob("*") if is_pts(file) and not is_litter(file.name)),
@@ -53,14 +56,20 @@ def read_folder(path: Path) -> Frames:
         raise InputError(f"{path} holds no .pts file")
     points, irises = stacked(map(_face, files), path)
     labels = tuple(file.relative_to(path).with_suffix("").as_posix() for file in files)
-    return Frames(
-        points=points,
-        labels=labels,
-        time_s=None,
-        source=str(path),
-        irises=irises,
-        numbers=_counted(labels),
-    )
+    folders = [file.parent.relative_to(path).as_posix() for file in files]
+    frames = Frames(points=points, labels=labels, time_s=None, source=str(path), irises=irises)
+    return of_folders(replace(frames, numbers=_numbers(labels, folders)), folders)
+
+
+def _numbers(names: Sequence[str], folders: Sequence[str]) -> np.ndarray | None:
+    """What names count in each folder, those of a folder behind those of the one before."""
+    numbers: list[np.ndarray] = []
+    for _, rows in groupby(range(len(names)), key=folders.__getitem__):
+        counted = _counted([names[row] for row in rows])
+        if counted is None:
+            return None
+        numbers.append(counted - counted[0] + numbers[-1][-1] + 1 if numbers else counted)
+    return np.concatenate(numbers)
 
 
 def _counted(names: Sequence[str]) -> np.ndarray | None:

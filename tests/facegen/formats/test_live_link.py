@@ -59,6 +59,46 @@ def test_drop_frame_timecode_has_steps_of_one_frame_over_a_minute_and_over_the_t
         assert np.allclose(take.time_s, np.arange(4) * 1001 / 60000)
 
 
+def _coded(path: Path, codes: list[str]) -> np.ndarray:
+    return read_live_link(
+        _write(path, list(BLENDSHAPES), [[code, "61", *["0"] * 52] for code in codes])
+    ).time_s
+
+
+@pytest.mark.parametrize("rate", [24, 25, 30, 48, 60])
+@pytest.mark.parametrize("start", [0, 7, 3599 * 30])
+def test_timecode_may_count_slower_than_60(rate: int, start: int, tmp_path: Path):
+    """Told by the largest frame of a take of two seconds; 48 is no rate of an app's, and read as 60."""
+    numbers = start + np.arange(3 * rate)
+    codes = [
+        f"{n // rate // 3600:02d}:{n // rate // 60 % 60:02d}:{n // rate % 60:02d}:{n % rate:02d}.000"
+        for n in numbers
+    ]
+    expected = np.arange(3 * rate) / rate
+    if rate == 48:
+        seconds, frames = numbers // rate, numbers % rate
+        expected = seconds + frames / 60
+        expected = expected - expected[0]
+    np.testing.assert_allclose(_coded(tmp_path / "a.csv", codes), expected, atol=1e-9)
+
+
+def test_short_and_slow_takes_count_60_as_they_did(tmp_path: Path):
+    """Also one of two rows a second, of which no frame passes 30 but few differ."""
+    short = [f"00:00:01:{frame:02d}.000" for frame in range(24)]
+    np.testing.assert_allclose(_coded(tmp_path / "a.csv", short), np.arange(24) / 60)
+    slow = [f"00:00:{second:02d}:{frame:02d}.000" for second in range(9) for frame in (0, 29)]
+    np.testing.assert_allclose(_coded(tmp_path / "b.csv", slow)[:4], [0, 29 / 60, 1, 1 + 29 / 60])
+
+
+def test_drop_frame_timecode_of_30_leaves_two_numbers_out(tmp_path: Path):
+    """Behind 00:00:59;29 comes 00:01:00;02."""
+    codes = [f"00:00:{second:02d};{frame:02d}" for second in range(57, 60) for frame in range(30)]
+    codes += [f"00:01:00;{frame:02d}" for frame in range(2, 30)]
+    np.testing.assert_allclose(
+        _coded(tmp_path / "a.csv", codes), np.arange(len(codes)) * 1001 / 30000, atol=1e-9
+    )
+
+
 def test_what_is_no_recording_is_refused(tmp_path: Path):
     path = tmp_path / "a.csv"
     path.write_text("a,b\n1,2\n")
