@@ -12,6 +12,7 @@ import numpy as np
 from facegen.formats.film import check_film_path
 from facegen.formats.picture_size import MOST_PIXELS
 from regress.errors import InputError
+from regress.runtime.even_rows import even_rows
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -71,6 +72,17 @@ class Film:
     def __exit__(self, *_: object) -> None:
         self._film.release()
 
+    def spread(self, count: int) -> Iterator[np.ndarray]:
+        """So many grey pictures all over the film, as far as it can be wound; before its frames are read."""
+        for row in even_rows(self.length, count):
+            self._film.set(cv2.CAP_PROP_POS_FRAMES, float(row))
+            try:
+                there, frame = self._film.read()
+            except cv2.error:
+                return
+            if there:
+                yield _grey(frame)
+
     def frames(self, chosen: set[int] | None = None) -> Iterator[FilmFrame]:
         """Frames in order: those of these numbers, or all.
 
@@ -97,7 +109,11 @@ class Film:
                 yield FilmFrame(
                     number=number,
                     time_s=self._film.get(cv2.CAP_PROP_POS_MSEC) / 1000,
-                    grey=cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY) if frame.ndim == 3 else frame,
+                    grey=_grey(frame),
                 )
         except cv2.error as error:
             raise InputError(f"{self._path} cannot be read as a film ({error.err})") from error
+
+
+def _grey(frame: np.ndarray) -> np.ndarray:
+    return cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY) if frame.ndim == 3 else frame

@@ -89,6 +89,7 @@ def read_recording(
     bits: int | None = None,
     placement: CameraPlacement | None = None,
     choose: Callable[[int], np.ndarray] | None = None,
+    as_recorded: bool = False,
 ) -> Recording:
     """Read a folder of pictures or a film, in grey, scaled where only the size differs.
 
@@ -103,6 +104,8 @@ def read_recording(
         What of them the network is to see.
     choose
         Which rows of so many frames are read; all by default.
+    as_recorded
+        Whether pictures stay whole, with bars that they have.
 
     Raises
     ------
@@ -122,7 +125,7 @@ def read_recording(
     if not stat.S_ISDIR(kind) and (not stat.S_ISREG(kind) or path.suffix.lower() not in FILMS):
         raise InputError(f"{path} is neither a folder nor a film; films end in {', '.join(FILMS)}")
     size = width, height
-    whole = None if placement is not None else whole_of(named, size)
+    whole = None if placement is not None or as_recorded else whole_of(named, size)
     if stat.S_ISDIR(kind):
         recording = _read_folder(path, camera, size, bits, placement or whole, choose, half)
     else:
