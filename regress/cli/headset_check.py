@@ -78,7 +78,8 @@ def check(
         recording = read_recording(
             path, name, width=width, height=height, bits=bits, choose=checked_rows, as_recorded=True
         )
-        for note in fault_sentences(name, recording.numbers, recording.faults):
+        noted = [recording.note] if recording.film and recording.note else []
+        for note in (*noted, *fault_sentences(name, recording.numbers, recording.faults)):
             say(note)
         sound = np.array([fault is None for fault in recording.faults])
         footage[name] = recording.pictures if sound.all() else recording.pictures[sound]

@@ -15,6 +15,13 @@ from regress.errors import InputError
 from regress.runtime.even_rows import even_rows
 
 
+_FEWER = 0.02
+"""Share of a film's frames, and two at least, that may be lacking untold: some containers only estimate their number."""
+
+_QUIET = "-8"
+"""FFmpeg's AV_LOG_QUIET: of a damaged film it writes a line a frame, and OpenCV asks once, at the first opening."""
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FilmFrame:
     """One frame.
@@ -52,10 +59,14 @@ class Film:
         Width and height.
     length
         How many frames there are, as it says itself; 0 where it does not.
+    ended_after
+        Frames after which no more came; None while more may come.
     """
 
     def __init__(self, path: Path) -> None:
         check_film_path(path)
+        os.environ["OPENCV_FFMPEG_LOGLEVEL"] = _QUIET
+        self.ended_after: int | None = None
         self._path, self._film = path, cv2.VideoCapture(os.fspath(path))
         self._film.set(cv2.CAP_PROP_ORIENTATION_AUTO, 1)
         fps, length = (self._film.get(each) for each in (cv2.CAP_PROP_FPS, cv2.CAP_PROP_FRAME_COUNT))
@@ -71,6 +82,16 @@ class Film:
 
     def __exit__(self, *_: object) -> None:
         self._film.release()
+
+    @property
+    def lacking(self) -> str:
+        """That frames are lacking that it says it has, in words; empty where none are."""
+        if self.ended_after is None or self.length - self.ended_after <= max(2, _FEWER * self.length):
+            return ""
+        return (
+            f"its film says that it has {self.length} frames, and ends or cannot be decoded after {self.ended_after}; "
+            f"what was read counts"
+        )
 
     def spread(self, count: int) -> Iterator[np.ndarray]:
         """So many grey pictures all over the film, as far as it can be wound; before its frames are read."""
@@ -99,12 +120,16 @@ class Film:
         last = None if chosen is None else max(chosen)
         try:
             for number in count():
-                if (last is not None and number > last) or not self._film.grab():
+                if last is not None and number > last:
+                    return
+                if not self._film.grab():
+                    self.ended_after = number
                     return
                 if chosen is not None and number not in chosen:
                     continue
                 there, frame = self._film.retrieve()
                 if not there:
+                    self.ended_after = number
                     return
                 yield FilmFrame(
                     number=number,

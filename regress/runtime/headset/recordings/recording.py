@@ -56,7 +56,7 @@ class Recording:
     time_s : (n,) float64 or None
         Seconds of the frames, rising, where a film or names tell them.
     note
-        What a person should be told of the frames' order; empty where nothing.
+        What a person should be told of the frames' order, or of lacking ones; empty where nothing.
     scaled_from : (n, 2) int64 or None
         Width and height of each picture before it was scaled; None where none was.
     placement
@@ -185,7 +185,7 @@ def _read_film(
             _check_count(len(stack), path)
             numbers.append(frame.number)
             times.append(frame.time_s)
-        fps = film.fps
+        fps, lacking = film.fps, film.lacking
     if not numbers:
         raise InputError(f"{path} cannot be read as a film: it has no frames, or a codec that OpenCV lacks")
     time_s = np.array(times)
@@ -197,6 +197,7 @@ def _read_film(
         numbered=False,
         film=True,
         fps=fps,
+        note=f"{camera}: {lacking}" if lacking else "",
         time_s=time_s if rises else None if fps is None else np.array(numbers) / fps,
         placement=placement,
         **stack.fields,
