@@ -14,7 +14,7 @@ from regress.errors import InputError
 if TYPE_CHECKING:
     import numpy as np
 
-    from regress.runtime.headset.fitness.fitness import CameraFitness
+    from regress.runtime.headset.fitness.camera_fitness import CameraFitness
     from regress.runtime.headset.network.predictor import HeadsetPredictor
 
 
@@ -75,8 +75,11 @@ def check(
     footage = {}
     for name, path in paths.items():
         width, height = recorded_size(path)
-        recording = read_recording(path, name, width=width, height=height, bits=bits, choose=checked_rows)
-        for note in fault_sentences(name, recording.numbers, recording.faults):
+        recording = read_recording(
+            path, name, width=width, height=height, bits=bits, choose=checked_rows, as_recorded=True
+        )
+        noted = [recording.note] if recording.film and recording.note else []
+        for note in (*noted, *fault_sentences(name, recording.numbers, recording.faults)):
             say(note)
         sound = np.array([fault is None for fault in recording.faults])
         footage[name] = recording.pictures if sound.all() else recording.pictures[sound]

@@ -256,7 +256,9 @@ def _one_neutral(
     if Path(named).is_dir():
         sizes = zip(predictor.sizes.items(), footage.given, strict=True)
         needed = {name: size for (name, size), there in sizes if there}
-        pictures = read_neutral(Path(named), needed, bits=bits, placement=placement)
+        # a single picture does not say that it has bars
+        barred = {name: one for name, one in footage.placement.items() if any(one.cut)}
+        pictures = read_neutral(Path(named), needed, bits=bits, placement={**barred, **placement})
         pictures = {
             name: levels[name].apply(picture) if name in levels else picture
             for name, picture in pictures.items()

@@ -7,6 +7,7 @@ from facegen.console import say
 from regress.errors import InputError
 from regress.runtime.headset.answers.points import check_points
 from regress.runtime.headset.answers.traced_eyes import TracedEye
+from regress.runtime.headset.network.parts import mirror_partner
 from regress.runtime.headset.network.predictor import HeadsetPredictor
 from regress.runtime.headset.network.temporal import TAPS
 from regress.runtime.headset.pictures.looks import levels_of
@@ -27,6 +28,17 @@ def check_model(
         raise InputError(f"{folder} has no scores on a test split, from which confidence is made")
     if points is not None:
         check_points(predictor)
+
+
+def same_path_notes(paths: Mapping[str, Path]) -> Iterator[str]:
+    """A sentence for each pair of eyes' cameras that have one path."""
+    for name, path in paths.items():
+        partner = mirror_partner(name)
+        if name < partner and paths.get(partner) == path:
+            yield (
+                f"{name} and {partner} have the same path, {path}: where its pictures show both eyes, put #left behind "
+                f"one and #right behind the other; where they show one, its gaze and lids stand for both"
+            )
 
 
 def tell_of(footage: Footage, predictor: HeadsetPredictor, *, strict: bool) -> None:

@@ -166,6 +166,7 @@ def predict(
         check_model,
         level_notes,
         rate_note,
+        same_path_notes,
         seat_notes,
         target_notes,
         tell_of,
@@ -241,7 +242,8 @@ def predict(
     tell_of(footage, predictor, strict=strict)
     # pictures of a dataset are of many people, each with levels of their own
     levels = {} if dataset is not None else levels_of_cameras(footage, predictor.model.looks, placed)
-    for note in () if dataset is not None else level_notes(footage, predictor, placed):
+    of_levels = () if dataset is not None else level_notes(footage, predictor, placed)
+    for note in (*same_path_notes(paths), *of_levels):
         say(note)
     footage = levelled(footage, levels)
     neutrals = read_neutrals(

@@ -101,12 +101,12 @@ def _placed(path: Path, profile: Profile, pipeline: "Pipeline", say: Callable[[s
     return profile.model_copy(update={"placement": placement, **left})
 
 
-def _part_of(placement: "CameraPlacement | None") -> tuple[float, float, float, float, bool]:
+def _part_of(placement: "CameraPlacement | None") -> tuple[object, ...]:
     """Which part of its camera's pictures counts, without their levels; all of them without a placement."""
     from regress.runtime.headset.pictures.placement import CameraPlacement
 
     seen = placement or CameraPlacement()
-    return (seen.x, seen.y, seen.size, seen.roll_deg, seen.mirror)
+    return (seen.x, seen.y, seen.size, seen.roll_deg, seen.mirror, seen.stretch, seen.cut)
 
 
 def _use_or_leave_out_neutral(profile: Profile, pipeline: "Pipeline", say: Callable[[str], None]) -> Profile:

@@ -205,6 +205,11 @@ class HeadsetPipeline(Pipeline):
                     f"{name}: {width}x{height} is another shape than the network's; all of each picture is seen, and "
                     f"`regress headset check` finds a better --placement"
                 )
+        for name in self.stages["soundness"].barred:
+            if name in (sample.pictures or {}):
+                found[name] = (
+                    f"{name}: its pictures have bars; `regress headset check` finds a --placement that leaves them out"
+                )
         for name in self._alone:
             if name in (sample.pictures or {}):
                 found.setdefault(

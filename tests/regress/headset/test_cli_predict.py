@@ -409,3 +409,11 @@ def test_a_film_shows_the_cameras_beside_the_avatar(
     assert frames[0][60:160, side + 20 : 2 * side - 20].mean() == pytest.approx(51, abs=8)
     assert frames[0][side + 60 :, 20 : 2 * side - 20].max() < 90
     assert sorted(path.name for path in tmp_path.iterdir()) == ["take", film.name]
+
+
+def test_one_path_for_both_eyes_is_told(run, model: Path, take: list[str], tmp_path: Path):
+    """A camera of 16 : 9 that shows both eyes passed for a view of each."""
+    folder = tmp_path / "take" / "left_eye"
+    for left, right, told in ((folder, folder, True), (f"{folder}#left", f"{folder}#right", False)):
+        _, _, said = run("headset", "predict", model, "--left-eye", left, "--right-eye", right, "--fps", 30)
+        assert ("left_eye and right_eye have the same path" in said) is told, said

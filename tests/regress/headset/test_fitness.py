@@ -12,7 +12,8 @@ import pytest
 
 from regress.errors import InputError
 from regress.runtime.headset.eyes.eye_points import EyePoints
-from regress.runtime.headset.fitness.fitness import _are_the_same, judge
+from regress.runtime.headset.fitness.both_eyes import _are_the_same
+from regress.runtime.headset.fitness.fitness import judge
 from regress.runtime.headset.fitness.misfits import Misfit
 from regress.runtime.headset.fitness.sheet import fitness_sheet
 from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor

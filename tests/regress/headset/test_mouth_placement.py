@@ -11,7 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from regress.runtime.headset.fitness.fitness import CameraFitness, judge
+from regress.runtime.headset.fitness.camera_fitness import CameraFitness
+from regress.runtime.headset.fitness.fitness import judge
 from regress.runtime.headset.fitness.misfits import Misfit
 from regress.runtime.headset.network.predictor import HeadsetPredictor, load_headset_predictor
 from regress.runtime.headset.pictures.placement import CameraPlacement, whole_view

@@ -213,6 +213,18 @@ def test_a_slow_cameras_picture_stays_the_same_array_in_grey():
     assert grey[2] is not grey[1]
 
 
+def test_bars_are_told_once():
+    """A program between camera and `track` puts them there, and all of a picture is then half of a face."""
+    said = []
+    session = headset_session(said)
+    for sample in headset_frames()[:60]:
+        barred = {name: np.pad(picture, ((16, 16), (0, 0))) for name, picture in sample.pictures.items()}
+        session.answer(replace(sample, pictures=barred))
+    for name in HEADSET:
+        (told,) = [line for line in said if line.startswith(f"{name}: its pictures have bars")]
+        assert "--placement" in told
+
+
 def test_pictures_that_are_not_square_are_seen_whole_and_told_once():
     """Most webcams give 4 : 3, and nobody has placed one at the first start."""
     said = []

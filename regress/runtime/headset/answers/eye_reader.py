@@ -10,6 +10,7 @@ from regress.runtime.headset.eyes.eye_points import EyePoints, traces_an_eye
 from regress.runtime.headset.eyes.gaze_lead import GazeLead
 from regress.runtime.headset.eyes.gaze_map import IRIS_MM, gaze_map
 from regress.runtime.headset.eyes.iris_diameter import IrisDiameter, diameter_of, mean_length
+from regress.runtime.headset.eyes.lid_ends import usual_opening_mm
 from regress.runtime.headset.eyes.pupils import pupil_share
 from regress.runtime.headset.eyes.vergence import meeting
 from regress.runtime.headset.network.predictor import HeadsetPredictor
@@ -24,10 +25,6 @@ _UNSEEN_DEG = 100.0
 
 HIDDEN_DEG = 20.0
 """Error of the gaze of an eye that is shut."""
-
-_USUAL_OPENNESS = 0.85
-"""Lids of the mean of training's frames, over those of the resting eye: some of these frames are shut. Neutral frames
-of 60 other people read 1.00 in the median."""
 
 _PUPIL_EVERY_S = 0.13
 """A pupil takes half a second to change, and measuring one 0.3 ms."""
@@ -69,11 +66,7 @@ class EyeReader:
         # the eyes' turns do not fall on one frame
         self._pupils = {name: _Pupil(first_s=side * _PUPIL_EVERY_S / 2) for name, side in self.sides.items()}
         self._usual = {
-            name: OwnEye(
-                shut_mm=0.0,
-                rest_mm=IRIS_MM * _apart(eye.usual, eye) / _USUAL_OPENNESS / diameter_of(eye.usual, eye),
-            )
-            for name, eye in self._eyes.items()
+            name: OwnEye(shut_mm=0.0, rest_mm=usual_opening_mm(eye)) for name, eye in self._eyes.items()
         }
         self.use_person(person)
 

@@ -21,15 +21,13 @@ from regress.runtime.headset.eyes.eye_points import EyePoints, traces_an_eye
 from regress.runtime.headset.eyes.gaze_lead import led_take
 from regress.runtime.headset.eyes.gaze_map import IRIS_MM, gaze_map
 from regress.runtime.headset.eyes.glances import glances
+from regress.runtime.headset.eyes.lid_ends import lid_ends_mm, usual_opening_mm
 from regress.runtime.headset.eyes.own_gaze import FEWEST_TARGETS, own_gaze
 from regress.runtime.headset.eyes.pupils import pupil_share
 from regress.runtime.headset.eyes.vergence import meeting
 from regress.runtime.headset.network.predictor import HeadsetPredictor
 from regress.runtime.headset.recordings.footage import Footage
 from regress.runtime.stages.frame_clock import FrameClock
-
-OWN_OPENNESS = 90.0
-"""Percentile of a take's openness that counts as the person's own: wide eyes are above."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +39,8 @@ class TracedEye:
     openness_mm : (n,) float64
         Mean distance of the lids' margins.
     openness : (n,) float64
-        As a share of the person's own (`OWN_OPENNESS`): 0 is shut.
+        As a share of the way from the person's own shut eye to the open one (`lid_ends_mm`). Where too few blinks were
+        seen, 0 is lids that are traced upon each other, and a real shut eye reads about .5.
     pupil : (n,) float64
         Diameter of the pupil over that of the iris; NaN where it is hidden.
     gaze_deg : (n, 2) float64
@@ -140,7 +139,8 @@ def traced_eyes(
         points[~footage.present[:, footage.cameras.index(name)]] = np.nan
         eye = EyePoints.of(predictor, name)
         _, apart = eye_features(points, eye)
-        openness = apart / np.nanpercentile(apart, OWN_OPENNESS)
+        own_mm, shut_mm = lid_ends_mm(IRIS_MM * apart, time_s, usual_mm=usual_opening_mm(eye))
+        openness = np.maximum((IRIS_MM * apart - shut_mm) / (own_mm - shut_mm), 0)
         pupil = calm_pupil(points, eye, shut=openness < HALF_SHUT, seconds=seconds)
         gaze = np.column_stack([pupil, np.ones(len(pupil))]) @ gaze_map(predictor, name).T
         answers = [gaze, direct[:, int(_is_right(predictor, name))]]

@@ -41,6 +41,9 @@ class Misfit(Enum):
     FLICKER = "flickering"
     PLACED = "elsewhere"
     LOST = "not found"
+    BARS = "with bars"
+    SHRUNK = "shrunk in width"
+    VIEWS = "of two views"
     FEW = "too few"
 
 

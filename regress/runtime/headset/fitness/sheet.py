@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import cv2
 import numpy as np
 
-from regress.runtime.headset.fitness.fitness import CameraFitness
+from regress.runtime.headset.fitness.camera_fitness import CameraFitness
 from regress.runtime.headset.network.predictor import HeadsetPredictor
 from regress.runtime.headset.placing.levels import levels_in
 

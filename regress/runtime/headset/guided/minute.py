@@ -8,7 +8,7 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX, BLENDSHAPES, BLINK_INDICES, EYE_LOOK_INDICES
 from regress.errors import InputError
 from regress.runtime.headset.answers.eye_reader import HALF_SHUT, EyeReader
-from regress.runtime.headset.answers.traced_eyes import OWN_OPENNESS
+from regress.runtime.headset.eyes.lid_ends import OWN_OPENNESS
 from regress.runtime.headset.guided.gaze import gaze_centred, gaze_of_targets
 from regress.runtime.headset.network.predictor import HeadsetPredictor
 from regress.runtime.headset.person.person import (

@@ -1,6 +1,6 @@
 """Reads one picture in grey and brings it to the size that a network takes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import cv2
@@ -12,7 +12,7 @@ from facegen.formats.picture_size import MOST_PIXELS, picture_size
 from regress.errors import InputError
 from regress.runtime.headset.pictures.faults import Fault, picture_fault
 from regress.runtime.headset.pictures.halves import half_of
-from regress.runtime.headset.pictures.placement import CameraPlacement, whole_view
+from regress.runtime.headset.pictures.placement import NO_CUT, CameraPlacement, whole_view
 
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
 
@@ -127,16 +127,20 @@ def has_shape_of(picture: tuple[int, int], view: tuple[float, float]) -> bool:
     return abs(picture[0] * view[1] / (picture[1] * view[0]) - 1) <= ASPECT
 
 
-def whole_of_shape(picture: tuple[int, int], view: tuple[int, int]) -> CameraPlacement | None:
-    """What nobody placed: all of pictures of another shape than a view's; both are (width, height).
+def whole_of_shape(
+    picture: tuple[int, int], view: tuple[int, int], cut: tuple[float, ...] = NO_CUT
+) -> CameraPlacement | None:
+    """What nobody placed: all that a cut leaves of pictures of another shape than a view's; both are (width, height).
 
     None for pictures that only need scaling, and for those that are so much wider or higher than the view that they
     show something else.
     """
-    ratio = picture[0] * view[1] / (picture[1] * view[0])
-    if has_shape_of(picture, view) or max(ratio, 1 / ratio) > STRANGE_ASPECT:
+    left, top, right, bottom = CameraPlacement(cut=cut).kept(picture)
+    kept = right - left, bottom - top
+    ratio = kept[0] * view[1] / (kept[1] * view[0])
+    if max(ratio, 1 / ratio) > STRANGE_ASPECT or (has_shape_of(kept, view) and not any(cut)):
         return None
-    return whole_view(picture, view)
+    return replace(whole_view(kept, view), cut=cut, aspect=picture[0] / picture[1])
 
 
 def fit_picture(

@@ -6,13 +6,18 @@ from typing import Annotated, ClassVar
 
 import cv2
 import numpy as np
-from annotated_types import Interval
+from annotated_types import Interval, Len
 
 Share = Annotated[float, Interval(ge=-2, le=3)]
 """Of a picture's width or height; what the network sees may have its middle outside of the picture."""
 
 Level = Annotated[float, Interval(ge=-255, le=510)]
 """A grey level; flat pictures are stretched from levels that no pixel has."""
+
+Edge = Annotated[float, Interval(ge=0, le=0.45)]
+"""Share of a picture's width or height that is left out at an edge."""
+
+NO_CUT = (0.0, 0.0, 0.0, 0.0)
 
 _FADES = (0.02, 0.08)
 """Blurs of what lies beyond a picture's edges, of the view's width: each is whole from one and a half of it outside.
@@ -31,6 +36,11 @@ class CameraPlacement:
         Middle of the view, as shares of the picture's width and height.
     size
         Width of the view over that of the picture: below 1 the picture is cropped, above it is widened.
+    stretch
+        How many times as wide as high a pixel is: 2 where two views were shrunk into halves of one picture.
+    cut
+        Shares of the recorded picture that are left out at its left, top, right and bottom edge, as bars are; all else
+        is of what they leave.
     roll_deg
         By how much the view is turned in the picture, clockwise as the picture is looked at.
     mirror
@@ -52,6 +62,8 @@ class CameraPlacement:
     low: Level | None = None
     high: Level | None = None
     aspect: Annotated[float, Interval(ge=0.01, le=100)] | None = None
+    stretch: Annotated[float, Interval(ge=0.2, le=5)] = 1.0
+    cut: Annotated[tuple[Edge, ...], Len(4, 4)] = NO_CUT
 
     def __post_init__(self) -> None:
         """Refuse levels of which one is lacking, or that are no range."""
@@ -62,12 +74,27 @@ class CameraPlacement:
                 f"low {self.low:g} must lie below high {self.high:g}, by one grey level at least"
             )
 
+    def kept(self, picture: tuple[int, int]) -> tuple[int, int, int, int]:
+        """Pixels (left, top, right, bottom) between which a picture (width, height) is left by the cut."""
+        left, top, right, bottom = (
+            round(share * side) for share, side in zip(self.cut, (*picture, *picture), strict=True)
+        )
+        return left, top, picture[0] - right, picture[1] - bottom
+
     def picture_from_view(self, picture: tuple[int, int], view: tuple[int, int]) -> np.ndarray:
         """(2, 3) float64: takes pixels of the view to the picture's; both are (width, height)."""
-        step = self.size * picture[0] / view[0]
+        left, top, right, bottom = self.kept(picture)
+        matrix = self._left_from_view((right - left, bottom - top), view)
+        matrix[:, 2] += (left, top)
+        return matrix
+
+    def _left_from_view(self, picture: tuple[int, int], view: tuple[int, int]) -> np.ndarray:
+        """The same of pictures without what is cut."""
+        step = self.size * self.stretch * picture[0] / view[0]
         angle = np.radians(self.roll_deg)
         turn = step * np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
         turn[:, 0] *= -1 if self.mirror else 1
+        turn[0] /= self.stretch
         middle = np.array([self.x * picture[0], self.y * picture[1]]) - 0.5
         return np.column_stack([turn, middle - turn @ ((np.array(view) - 1) / 2)])
 
@@ -76,12 +103,16 @@ class CameraPlacement:
 
         What is repeated beyond the picture's edges fades out, or stays streaks all through.
         """
+        left, top, right, bottom = self.kept((picture.shape[1], picture.shape[0]))
+        picture = picture[top:bottom, left:right]
         size = picture.shape[1], picture.shape[0]
-        matrix = self.picture_from_view(size, (width, height))
+        matrix = self._left_from_view(size, (width, height))
         finer = self.size * picture.shape[1] / width
-        if finer > 1:
+        blurs = [_blur_of(finer), _blur_of(finer * self.stretch)]
+        if max(blurs) > 0:
             # each pixel of the view covers so many of the picture's: a Gaussian of half of that lets none alias
-            picture = cv2.GaussianBlur(picture, (0, 0), 0.4 * np.sqrt(finer**2 - 1) + 1e-3)
+            across, down = (max(blur, 1e-3) for blur in blurs)
+            picture = cv2.GaussianBlur(picture, (0, 0), across, sigmaY=down)
         seen = cv2.warpAffine(
             picture,
             matrix,
@@ -89,7 +120,7 @@ class CameraPlacement:
             flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
             borderMode=cv2.BORDER_REPLICATE,
         )
-        shares = _shares(tuple(matrix.ravel()), size, (width, height)) if fades else None
+        shares = _shares(tuple(matrix.ravel()), size, (width, height), self.stretch) if fades else None
         return seen if shares is None else _faded(seen, shares)
 
 
@@ -103,16 +134,23 @@ def whole_view(picture: tuple[int, int], view: tuple[int, int]) -> CameraPlaceme
     return CameraPlacement(size=size, aspect=picture[0] / picture[1])
 
 
+def _blur_of(finer: float) -> float:
+    """Standard deviation in pixels of a picture that is so many times as fine as its view."""
+    return 0.4 * float(np.sqrt(finer**2 - 1)) + 1e-3 if finer > 1 else 0.0
+
+
 @lru_cache(maxsize=64)
 def _shares(
-    picture_from_view: tuple[float, ...], picture: tuple[int, int], view: tuple[int, int]
+    picture_from_view: tuple[float, ...], picture: tuple[int, int], view: tuple[int, int], stretch: float
 ) -> np.ndarray | None:
     """How much of each blur every pixel of a view has (blurs, height, width) float32; None where all are 0."""
     matrix = np.array(picture_from_view).reshape(2, 3)
     across, down = np.meshgrid(np.arange(view[0]), np.arange(view[1]))
     at = np.stack([across, down], axis=-1) @ matrix[:, :2].T + matrix[:, 2]
     beyond = np.maximum(np.maximum(-at, at - (np.array(picture) - 1)), 0)
-    outside = np.hypot(*np.moveaxis(beyond, -1, 0)) / np.sqrt(abs(np.linalg.det(matrix[:, :2])))
+    square = np.array([stretch, 1.0])
+    step = np.sqrt(abs(np.linalg.det(square[:, None] * matrix[:, :2])))
+    outside = np.hypot(*np.moveaxis(beyond * square, -1, 0)) / step
     shares = np.array([np.clip(outside / (blur * view[0]) - 0.5, 0, 1) for blur in _FADES])
     return shares.astype(np.float32) if shares.any() else None
 

@@ -16,6 +16,8 @@
     low = 95.0                             # grey levels; both may be left out
     high = 254.0
     aspect = 1.3333                        # width over height of the pictures; others are at fault; may be left out
+    stretch = 2.0                          # how many times as wide as high a pixel is; 1 where left out
+    cut = [0.0, 0.125, 0.0, 0.125]         # shares left out at left, top, right and bottom; none where left out
 """
 
 import os
@@ -116,6 +118,10 @@ def write_placement(path: str | os.PathLike[str], placement: Placement) -> None:
             lines += [f"low = {camera.low:.1f}", f"high = {camera.high:.1f}"]
         if camera.aspect is not None:
             lines.append(f"aspect = {camera.aspect:.4f}")
+        if camera.stretch != 1:
+            lines.append(f"stretch = {camera.stretch:.4f}")
+        if any(camera.cut):
+            lines.append(f"cut = [{', '.join(f'{share:.4f}' for share in camera.cut)}]")
     write_whole(Path(path), "\n".join(lines) + "\n")
 
 

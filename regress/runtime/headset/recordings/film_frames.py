@@ -12,6 +12,14 @@ import numpy as np
 from facegen.formats.film import check_film_path
 from facegen.formats.picture_size import MOST_PIXELS
 from regress.errors import InputError
+from regress.runtime.even_rows import even_rows
+
+
+_FEWER = 0.02
+"""Share of a film's frames, and two at least, that may be lacking untold: some containers only estimate their number."""
+
+_QUIET = "-8"
+"""FFmpeg's AV_LOG_QUIET: of a damaged film it writes a line a frame, and OpenCV asks once, at the first opening."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -51,10 +59,14 @@ class Film:
         Width and height.
     length
         How many frames there are, as it says itself; 0 where it does not.
+    ended_after
+        Frames after which no more came; None while more may come.
     """
 
     def __init__(self, path: Path) -> None:
         check_film_path(path)
+        os.environ["OPENCV_FFMPEG_LOGLEVEL"] = _QUIET
+        self.ended_after: int | None = None
         self._path, self._film = path, cv2.VideoCapture(os.fspath(path))
         self._film.set(cv2.CAP_PROP_ORIENTATION_AUTO, 1)
         fps, length = (self._film.get(each) for each in (cv2.CAP_PROP_FPS, cv2.CAP_PROP_FRAME_COUNT))
@@ -70,6 +82,27 @@ class Film:
 
     def __exit__(self, *_: object) -> None:
         self._film.release()
+
+    @property
+    def lacking(self) -> str:
+        """That frames are lacking that it says it has, in words; empty where none are."""
+        if self.ended_after is None or self.length - self.ended_after <= max(2, _FEWER * self.length):
+            return ""
+        return (
+            f"its film says that it has {self.length} frames, and ends or cannot be decoded after {self.ended_after}; "
+            f"what was read counts"
+        )
+
+    def spread(self, count: int) -> Iterator[np.ndarray]:
+        """So many grey pictures all over the film, as far as it can be wound; before its frames are read."""
+        for row in even_rows(self.length, count):
+            self._film.set(cv2.CAP_PROP_POS_FRAMES, float(row))
+            try:
+                there, frame = self._film.read()
+            except cv2.error:
+                return
+            if there:
+                yield _grey(frame)
 
     def frames(self, chosen: set[int] | None = None) -> Iterator[FilmFrame]:
         """Frames in order: those of these numbers, or all.
@@ -87,17 +120,25 @@ class Film:
         last = None if chosen is None else max(chosen)
         try:
             for number in count():
-                if (last is not None and number > last) or not self._film.grab():
+                if last is not None and number > last:
+                    return
+                if not self._film.grab():
+                    self.ended_after = number
                     return
                 if chosen is not None and number not in chosen:
                     continue
                 there, frame = self._film.retrieve()
                 if not there:
+                    self.ended_after = number
                     return
                 yield FilmFrame(
                     number=number,
                     time_s=self._film.get(cv2.CAP_PROP_POS_MSEC) / 1000,
-                    grey=cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY) if frame.ndim == 3 else frame,
+                    grey=_grey(frame),
                 )
         except cv2.error as error:
             raise InputError(f"{self._path} cannot be read as a film ({error.err})") from error
+
+
+def _grey(frame: np.ndarray) -> np.ndarray:
+    return cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY) if frame.ndim == 3 else frame

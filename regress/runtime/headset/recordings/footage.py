@@ -201,6 +201,13 @@ def _scaling_note(recording: Recording, sizes: Mapping[str, tuple[int, int]]) ->
             [sizes[recording.camera], *map(tuple, recording.scaled_from.tolist())]
         )
     )
+    if recording.whole and recording.placement is not None and any(recording.placement.cut):
+        left, top, right, bottom = (round(100 * share) for share in recording.placement.cut)
+        return [
+            f"{recording.camera}: its pictures of {', '.join(found)} have bars, which are left out ({left} % at the "
+            f"left, {top} % at the top, {right} % at the right, {bottom} % at the bottom); `regress headset check` "
+            f"finds a better --placement"
+        ]
     if recording.whole:
         return [
             f"{recording.camera}: pictures of {', '.join(found)} have another shape than the network's {wanted}; all "

@@ -4,17 +4,17 @@ import os
 from itertools import islice
 from pathlib import Path
 
+import numpy as np
+
 from facegen.documents import unreadable
 from regress.errors import InputError
 from regress.runtime.even_rows import even_rows
+from regress.runtime.headset.pictures.bars import LOOKED_AT, bars_of
 from regress.runtime.headset.pictures.faults import Fault
-from regress.runtime.headset.pictures.halves import half_size, split_half
+from regress.runtime.headset.pictures.halves import half_of, half_size, split_half
 from regress.runtime.headset.pictures.picture_file import PICTURES, decoded, whole_of_shape
-from regress.runtime.headset.pictures.placement import CameraPlacement
+from regress.runtime.headset.pictures.placement import NO_CUT, CameraPlacement
 from regress.runtime.headset.recordings.film_frames import Film
-
-_LOOKED_AT = 12
-"""Pictures of a folder, all over it, whose commonest size is the folder's."""
 
 
 def pictures_in(folder: Path) -> list[Path]:
@@ -52,7 +52,7 @@ def recorded_size(path: Path) -> tuple[int, int]:
     path, half = without_half(path)
     if path.is_dir():
         files = sorted(pictures_in(path))
-        rows = even_rows(len(files), _LOOKED_AT)
+        rows = even_rows(len(files), LOOKED_AT)  # whose commonest size is the folder's
         sizes = [size for row in rows if (size := _size_of(files[row]))]
         sizes = sizes or [size for size in islice(filter(None, map(_size_of, files)), 1)]
         if not sizes:
@@ -68,12 +68,34 @@ def recorded_size(path: Path) -> tuple[int, int]:
 
 
 def whole_of(path: Path, view: tuple[int, int]) -> CameraPlacement | None:
-    """All of the pictures of a folder, a film or a file, where most have another shape than a view (width, height)."""
+    """All of the pictures of a folder, a film or a file, where most have another shape than a view (width, height).
+
+    Bars at the edges of a folder's or a film's pictures are left out.
+    """
     try:
-        size = _size_of(path) if path.suffix.lower() in PICTURES else recorded_size(path)
+        if path.suffix.lower() in PICTURES:
+            size, cut = _size_of(path), NO_CUT
+        else:
+            size = recorded_size(path)
+            cut = _recorded_bars(path, size)
     except InputError:  # not one can be read, which is told of each
         return None
-    return None if size is None else whole_of_shape(size, view)
+    return None if size is None else whole_of_shape(size, view, cut)
+
+
+def _recorded_bars(path: Path, size: tuple[int, int]) -> tuple[float, ...]:
+    """What bars take of pictures (width, height) of a folder or a film: see `bars_of`."""
+    path, half = without_half(path)
+    if path.is_dir():
+        files = sorted(pictures_in(path))
+        pictures = [decoded(files[row]) for row in even_rows(len(files), LOOKED_AT)]
+    else:
+        with Film(path) as film:
+            pictures = list(film.spread(LOOKED_AT))
+    # of 16 bits a pixel nobody has said how many a camera uses
+    grey = [half_of(one, half) for one in pictures if isinstance(one, np.ndarray) and one.dtype == np.uint8]
+    alike = [one for one in grey if one.shape == size[::-1]]
+    return bars_of(np.stack(alike)) if alike else NO_CUT
 
 
 def _size_of(file: Path) -> tuple[int, int] | None:

@@ -56,7 +56,7 @@ class Recording:
     time_s : (n,) float64 or None
         Seconds of the frames, rising, where a film or names tell them.
     note
-        What a person should be told of the frames' order; empty where nothing.
+        What a person should be told of the frames' order, or of lacking ones; empty where nothing.
     scaled_from : (n, 2) int64 or None
         Width and height of each picture before it was scaled; None where none was.
     placement
@@ -89,6 +89,7 @@ def read_recording(
     bits: int | None = None,
     placement: CameraPlacement | None = None,
     choose: Callable[[int], np.ndarray] | None = None,
+    as_recorded: bool = False,
 ) -> Recording:
     """Read a folder of pictures or a film, in grey, scaled where only the size differs.
 
@@ -103,6 +104,8 @@ def read_recording(
         What of them the network is to see.
     choose
         Which rows of so many frames are read; all by default.
+    as_recorded
+        Whether pictures stay whole, with bars that they have.
 
     Raises
     ------
@@ -122,7 +125,7 @@ def read_recording(
     if not stat.S_ISDIR(kind) and (not stat.S_ISREG(kind) or path.suffix.lower() not in FILMS):
         raise InputError(f"{path} is neither a folder nor a film; films end in {', '.join(FILMS)}")
     size = width, height
-    whole = None if placement is not None else whole_of(named, size)
+    whole = None if placement is not None or as_recorded else whole_of(named, size)
     if stat.S_ISDIR(kind):
         recording = _read_folder(path, camera, size, bits, placement or whole, choose, half)
     else:
@@ -182,7 +185,7 @@ def _read_film(
             _check_count(len(stack), path)
             numbers.append(frame.number)
             times.append(frame.time_s)
-        fps = film.fps
+        fps, lacking = film.fps, film.lacking
     if not numbers:
         raise InputError(f"{path} cannot be read as a film: it has no frames, or a codec that OpenCV lacks")
     time_s = np.array(times)
@@ -194,6 +197,7 @@ def _read_film(
         numbered=False,
         film=True,
         fps=fps,
+        note=f"{camera}: {lacking}" if lacking else "",
         time_s=time_s if rises else None if fps is None else np.array(numbers) / fps,
         placement=placement,
         **stack.fields,

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from regress.errors import InputError
+from regress.runtime.headset.pictures.bars import LOOKED_AT, bars_of
 from regress.runtime.headset.pictures.faults import Fault, FrozenWatch
 from regress.runtime.headset.pictures.picture_file import FittedPicture, fit_picture, whole_of_shape
 from regress.runtime.headset.pictures.placement import CameraPlacement
@@ -31,6 +32,8 @@ class PictureSoundness(Stage):
     whole
         Width and height of the first pictures, of cameras that nobody placed and whose shape is not the network's: all
         of their pictures is seen.
+    barred
+        Cameras that nobody placed whose first pictures have bars: they are seen with them, as a neutral picture was.
     """
 
     def __init__(
@@ -45,6 +48,10 @@ class PictureSoundness(Stage):
         self._watch, self._clock = FrozenWatch(), FrameClock(fps)
         self._last: dict[str, np.ndarray] = {}
         self.whole: dict[str, tuple[int, int]] = {}
+        self._first: dict[str, list[np.ndarray]] = {
+            name: [] for name in sizes if self._placement.get(name) is None
+        }
+        self.barred: set[str] = set()
 
     def step(self, sample: Sample) -> Sample:
         """The sample with sound pictures alone; ``faults`` says what the other cameras have.
@@ -61,6 +68,7 @@ class PictureSoundness(Stage):
             if name not in sample.pictures:
                 faults[name] = Fault.MISSING
                 continue
+            self._look_for_bars(name, sample.pictures[name], held=name in held)
             fitted = self._fit(name, sample.pictures[name])
             if fitted.fault is None:
                 pictures[name] = fitted.picture
@@ -90,6 +98,16 @@ class PictureSoundness(Stage):
                 raise InputError(f"the neutral picture of {name} cannot be one: it is {found.fault.value}")
             fitted[name] = found.picture.copy()  # programs fill one buffer again and again
         return fitted
+
+    def _look_for_bars(self, name: str, picture: np.ndarray, *, held: bool) -> None:
+        """Ask a camera's first pictures for bars, once."""
+        first = self._first.get(name)
+        if first is None or held or (first and first[0].shape != picture.shape):
+            return
+        first.append(picture.copy())  # programs fill one buffer again and again
+        if len(first) == LOOKED_AT:
+            if any(bars_of(np.stack(self._first.pop(name)))):
+                self.barred.add(name)
 
     def _fit(self, name: str, picture: np.ndarray) -> FittedPicture:
         width, height = self._sizes[name]

@@ -1,0 +1,61 @@
+"""Films that were cut or damaged: what can be read counts, what lacks is told, and FFmpeg is quiet about it."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from regress.runtime.even_rows import even_rows
+from regress.runtime.headset.recordings.recording import Recording, read_recording
+
+FRAMES = 60
+
+
+def film(path: Path) -> Path:
+    random = np.random.default_rng(3)
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*"MJPG"), 30, (96, 96))
+    for _ in range(FRAMES):
+        writer.write(random.integers(40, 200, (96, 96, 3), dtype=np.uint8))
+    writer.release()
+    return path
+
+
+def cut(path: Path, share: float) -> Path:
+    path.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
+    return path
+
+
+def read(path: Path, **options: object) -> Recording:
+    return read_recording(path, "left_eye", width=64, height=64, **options)
+
+
+def test_a_whole_film_is_told_nothing_of(tmp_path: Path):
+    assert read(film(tmp_path / "eye.avi")).note == ""
+    assert read(tmp_path / "eye.avi", choose=lambda count: even_rows(count, 8)).note == ""
+
+
+@pytest.mark.parametrize("some", [False, True])
+def test_a_film_that_ends_early_is_told(tmp_path: Path, some: bool):
+    path = cut(film(tmp_path / "eye.avi"), 0.5)
+    recording = read(path, **({"choose": lambda count: even_rows(count, 30)} if some else {}))
+    assert 10 < len(recording.pictures) < 0.6 * FRAMES
+    assert recording.note.startswith(f"left_eye: its film says that it has {FRAMES} frames, and ends")
+    assert some or f"after {len(recording.pictures)};" in recording.note
+
+
+def test_ffmpeg_writes_nothing_of_a_damaged_film(tmp_path: Path):
+    path = film(tmp_path / "eye.avi")
+    content = bytearray(path.read_bytes())
+    for place in range(20_000, len(content) - 20_000, 500):
+        content[place : place + 60] = bytes(60)
+    path.write_bytes(content)
+    source = (
+        "from pathlib import Path\n"
+        "from regress.runtime.headset.recordings.recording import read_recording\n"
+        f"read_recording(Path({str(path)!r}), 'left_eye', width=64, height=64)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", source], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
