@@ -88,11 +88,12 @@ class Left(Text):
 
 
 class Line(Text):
-    """A line of chat, with who said it and when (seconds since 1970)."""
+    """A line of chat, with who said it, whether they moderated then, and when (seconds since 1970)."""
 
     kind: Literal["line"] = "line"
     number: Number
     name: str
+    moderator: bool = False
     text: str
     time_s: float
 
@@ -137,7 +138,10 @@ class Heard(Text):
 
 
 class Notice(Text):
-    """A word about what this person did, which had no effect; ``about`` is the kind of the text that was refused."""
+    """A word about what this person did, which had no effect; ``about`` is the kind of the text that was refused.
+
+    Of a consent it says that the room is not recorded, or no longer: there is nothing to agree to.
+    """
 
     kind: Literal["notice"] = "notice"
     text: str

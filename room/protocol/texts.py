@@ -154,11 +154,15 @@ class Candidate(Text):
 
 
 class Moderate(Text):
-    """What a moderator does; ``number`` is to whom, and means nothing for ``lock`` and ``unlock``."""
+    """What a moderator does; ``number`` is to whom, and means nothing for ``lock`` and ``unlock``.
+
+    ``id`` is that person's, where it is given: a number may be another's by the time the text arrives.
+    """
 
     kind: Literal["moderate"] = "moderate"
     action: Literal["mute", "unmute", "undress", "unshare", "remove", "lock", "unlock"]
     number: Number | None = None
+    id: Annotated[str, StringConstraints(max_length=64)] = ""
 
 
 class Consent(Text):

@@ -108,7 +108,13 @@ class RoomCommands:
         if seat.muted:
             raise NotAllowed("a moderator has muted you", again=True)
         if text:
-            line = Line(number=seat.number, name=seat.name, text=text, time_s=time.time())
+            line = Line(
+                number=seat.number,
+                name=seat.name,
+                moderator=seat.moderator,
+                text=text,
+                time_s=time.time(),
+            )
             self._broadcast(line)
             if self._peers:
                 self._peers.spoken(line)

@@ -60,7 +60,7 @@ class Consents:
     def _end(self) -> list[Notice | Changed]:
         self._recorder = None
         told: list[Notice | Changed] = [
-            Notice(text="the recording has ended, and nobody is recorded any more")
+            Notice(text="the recording has ended, and nobody is recorded any more", about="consent")
         ]
         for seat in self._meeting.seats:
             if seat.recorded:

@@ -11,6 +11,7 @@ from room.protocol.accounts import MOST_RESIDENTS
 from room.protocol.answers import Person
 from room.protocol.texts import Join, Moderate
 from room.protocol.tick import pack
+from room.state.names import free_name
 from room.state.numbers import free_number
 from room.state.rulings import Rulings
 from room.state.seat import Seat
@@ -122,7 +123,7 @@ class Meeting:
             seat = Seat(
                 number=self._free_number(int(id, 16)),
                 id=id,
-                name=join.name,
+                name="",
                 avatar=join.avatar,
                 visit=join.visit,
                 moderator=moderator,
@@ -131,7 +132,8 @@ class Meeting:
             self._seats[id] = seat
         if seat.shares and seat.visit != join.visit:  # the page that showed something is gone
             self.screen("")
-        seat.name, seat.avatar, seat.visit, seat.moderator = join.name, join.avatar, join.visit, moderator
+        seat.name = free_name(join.name, taken=[other.name for other in self.seats if other is not seat])
+        seat.avatar, seat.visit, seat.moderator = join.avatar, join.visit, moderator
         seat.gone_at, seat.voice = None, False
         # another process may have them, and not have told yet: their own clock then says which coming is the later one
         seat.home, seat.entry = self.process, max(seat.entry + 1, join.at_ms)
@@ -178,7 +180,7 @@ class Meeting:
         Raises
         ------
         NotAllowed
-            If ``by`` is no moderator, or nobody has that number.
+            If ``by`` is no moderator, nobody has that number, or somebody else has it now.
         """
         if not by.moderator:
             raise NotAllowed("only a moderator can do this; use the moderator's link")
@@ -188,6 +190,8 @@ class Meeting:
         seat = None if act.number is None else self.numbered(act.number)
         if seat is None:
             raise NotAllowed(f"nobody here has number {act.number}")
+        if act.id not in ("", seat.id):
+            raise NotAllowed(f"they have left, and {seat.name} has their number now; nothing was done")
         if act.action == "unshare":
             if seat.shares:
                 self.screen("")

@@ -125,7 +125,7 @@ def test_with_too_many_the_oldest_that_asked_nothing_gives_way():
     asyncio.run(run())
 
 
-def test_where_all_have_asked_the_next_gets_in_when_one_has_gone():
+def test_where_all_are_in_rooms_the_next_gets_in_when_one_has_gone():
     async def run() -> None:
         async with listening(most=3) as place:
             people = [await place.guest(name=str(number)) for number in range(3)]

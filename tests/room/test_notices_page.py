@@ -304,8 +304,12 @@ def test_nobody_is_removed_by_one_click():
             link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'moderator')}"
             async with browser.open(link) as tab:
                 await come_in(tab, "Chair")
-                await place.guest(name="Ben")
+                ben = await place.guest(name="Ben")
                 await tab.until("meeting.known.size === 2")
+                await tab.ask(
+                    "void ((say) => (meeting.line.say = (it) => say(globalThis.said = it)))"
+                    "(meeting.line.say.bind(meeting.line))"
+                )
                 await tab.ask(answers % "false")
                 await tab.ask(remove)
                 assert await tab.ask("asked") == ASKED
@@ -314,6 +318,25 @@ def test_nobody_is_removed_by_one_click():
                 await tab.ask(answers % "true")
                 await tab.ask(remove)
                 await tab.until("meeting.known.size === 2")
+                assert await tab.ask("said.id") == ben.welcome.id, "a number may be another's by then"
+
+    asyncio.run(run())
+
+
+def test_who_takes_a_moderators_name_is_told_from_them():
+    async def run() -> None:
+        async with open_room(places=BARE) as place, chromium(*AWAKE) as browser:
+            link = f"{place.address}/room/meeting#{place.keys.key('meeting', 'guest')}"
+            async with browser.open(link) as tab:
+                await come_in(tab, "Ada")
+                for count, moderator in enumerate((True, False), start=1):
+                    chair = await place.guest(name="Chair", moderator=moderator)
+                    await chair.say(kind="chat", text="hello")
+                    await tab.until(f"document.querySelectorAll('#lines li').length === {count}")
+                told = await tab.ask(
+                    "[...document.querySelectorAll('#lines li')].map((it) => it.textContent).join('|')"
+                )
+                assert told == "Chair moderator hello|Chair 2 hello"
 
     asyncio.run(run())
 

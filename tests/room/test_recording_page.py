@@ -34,6 +34,29 @@ def answer(value: str) -> str:
     return f"void (document.querySelector('#recording input[value={value}]').checked = true)"
 
 
+def test_there_is_nothing_to_agree_to_once_a_recording_has_ended(tmp_path):
+    ended: list[str] = []
+    recorder = Recorder(
+        tmp_path / "meeting.jsonl", room="meeting", hertz=HERTZ, ended=ended.append, most_bytes=30_000
+    )
+
+    async def run() -> None:
+        async with (
+            chromium(*AWAKE) as browser,
+            open_room(recorder=recorder, places=BARE) as place,
+            browser.open(link(place)) as tab,
+        ):
+            await tab.until(SEEN % "#recording")
+            await tab.ask(answer("yes"))
+            await come_in(tab, "Ada")
+            await tab.until(SEEN % "#consent")
+            await tab.until(f"!({SEEN % '#consent'})")
+            assert ended
+            assert not await tab.ask(SEEN % "#mark")
+
+    asyncio.run(run())
+
+
 def test_consent_is_asked_before_and_a_replay_moves_as_recorded(tmp_path):
     path = tmp_path / "meeting.jsonl"
 

@@ -1,6 +1,7 @@
 """What moderators have decided of people holds for those who leave and come back, and takes no more than its room."""
 
 import asyncio
+import unicodedata
 
 import pytest
 from hypothesis import given
@@ -8,7 +9,7 @@ from hypothesis import strategies as st
 
 from room.errors import NotAllowed
 from room.protocol.answers import Door
-from room.protocol.texts import Join, Moderate
+from room.protocol.texts import MOST_NAME_CHARACTERS, Join, Moderate
 from room.state import Meeting, Seat
 from room.state.kept_rulings import KEPT_S, MOST_KEPT, KeptRulings
 from room.state.meeting import KEEP_S, MOST_BEYOND
@@ -45,6 +46,41 @@ def test_who_goes_and_comes_back_is_muted_and_undressed_as_before(goes):
     meeting.moderate(chair, Moderate(action="unmute", number=again.number))
     meeting.leave(again)
     assert not _enter(meeting).person.muted
+
+
+@pytest.mark.parametrize("action", ["mute", "undress", "unshare", "remove"])
+def test_an_act_hits_nobody_who_got_the_number_meanwhile(action):
+    meeting, chair, ada = _meeting()
+    meeting.leave(ada)
+    ben = meeting.settle(None, ada.number, "b" * 16)
+    before = ben.person
+    for number in (ada.number, chair.number):
+        with pytest.raises(NotAllowed, match="nothing was done"):
+            meeting.moderate(chair, Moderate(action=action, number=number, id=ada.id))
+    assert meeting.seat(ben.id) is ben
+    assert ben.person == before
+    assert not meeting.rulings.any
+    assert meeting.moderate(chair, Moderate(action=action, number=ben.number, id=ben.id)) is ben
+
+
+@given(
+    st.lists(
+        st.tuples(st.integers(0, 5), st.sampled_from(["Ada", "ADA", "\uff21da", "Ada 2", "a" * 40])),
+        max_size=20,
+    )
+)
+def test_no_two_people_have_one_name(coming):
+    meeting = Meeting(most_people=8)
+    for person, name in coming:
+        seat = meeting.enter(Join(key="k" * 22, secret=str(person) * 22, name=name), moderator=False)
+        assert seat.name[:2] == name[:2]
+        names = [unicodedata.normalize("NFKC", each.name).casefold() for each in meeting.seats]
+        assert len({*names}) == len(names)
+        assert max(map(len, names)) <= MOST_NAME_CHARACTERS
+    for seat in meeting.seats:
+        meeting.leave(seat)
+    alone = meeting.enter(Join(key="k" * 22, secret=SECRET, name="Ada"), moderator=False)
+    assert alone.name == "Ada"
 
 
 def test_moderators_come_into_a_full_room_and_not_without_end():

@@ -145,6 +145,10 @@ async def test_chat_and_calls_go_to_whom_they_are_for(place):
 async def test_a_moderator_mutes_removes_and_locks(place):
     chair, ada, ben = await place.guest(moderator=True), await place.guest(), await place.guest(name="Ben")
     assert chair.welcome.moderator
+    for guest in (chair, ada):
+        await guest.say(kind="chat", text=str(guest.number))
+        line = await ben.told(Line, lambda line, guest=guest: line.text == str(guest.number))
+        assert line.moderator == (guest is chair), "whatever names they have"
     await chair.say(kind="moderate", action="mute", number=ada.number)
     await ben.told(Changed, lambda changed: changed.person.muted)
     await ada.move(flags=1 | 2)

@@ -66,7 +66,7 @@ export class Meeting {
     this.voice.speakInto(microphone?.stream);
     this.sidebar = new Sidebar(
       this.voice,
-      (action, number) => this.line.say({ kind: "moderate", action, number }),
+      (action, { number, id }) => this.line.say({ kind: "moderate", action, number, id }),
       (text) => this.chat(text),
     );
     this.line = new Line(address, join, {
@@ -146,7 +146,7 @@ export class Meeting {
         this.raised.drop(answer.number);
         break;
       case "line":
-        this.sidebar.line(answer.name, answer.text, answer.time_s);
+        this.sidebar.line(answer);
         return;
       case "door":
         this.locked = answer.locked;
@@ -172,8 +172,9 @@ export class Meeting {
         if (answer.kind === "refused") return void (this.lineWord = answer.text);
         if (answer.about === "share") this.screen.refuse();
         if (answer.about === "chat") this.sidebar.unsaid();
+        if (answer.about === "consent" && this.own) this.own.recording = ""; // it has ended: there is nothing to agree to
         this.tell(answer.text);
-        return;
+        break;
     }
     this.show();
   }

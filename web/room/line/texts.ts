@@ -53,7 +53,7 @@ export type Said =
   | { kind: "voice"; open: boolean }
   | Description
   | Candidate
-  | { kind: "moderate"; action: Act; number?: number }
+  | { kind: "moderate"; action: Act; number?: number; id?: string }
   | { kind: "consent"; recorded: boolean }
   | { kind: "play"; paused?: boolean; time_s?: number; speed?: number }
   | { kind: "undress" }
@@ -90,7 +90,7 @@ export type Answer =
   | Welcome
   | { kind: "person"; person: Person }
   | { kind: "left"; number: number }
-  | { kind: "line"; number: number; name: string; text: string; time_s: number }
+  | { kind: "line"; number: number; name: string; moderator: boolean; text: string; time_s: number }
   | { kind: "door"; locked: boolean }
   | { kind: "playing"; time_s: number; length_s: number; paused: boolean; speed: number }
   | { kind: "signal"; sender: number | EngineLine; signal: Description | Candidate }

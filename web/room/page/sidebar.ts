@@ -1,7 +1,7 @@
 /** The list of people and the chat. Whatever people typed becomes text, never markup. */
 
 import { byId } from "../../elements.js";
-import type { Act, Person } from "../line/texts.js";
+import type { Act, Answer, Person } from "../line/texts.js";
 import type { Voice } from "../voice/voice.js";
 import type { Raised } from "./raised.js";
 import { Row } from "./row.js";
@@ -10,6 +10,8 @@ import { Row } from "./row.js";
 const KEPT_LINES = 200;
 /** Farther than this from the end somebody reads what was said before. */
 const READS_PX = 40;
+
+type Line = Extract<Answer, { kind: "line" }>;
 
 export class Sidebar {
   private readonly people = byId<HTMLUListElement>("people");
@@ -20,7 +22,7 @@ export class Sidebar {
 
   constructor(
     private readonly voice: Voice,
-    private readonly moderate: (action: Act, number: number) => void,
+    private readonly moderate: (action: Act, whom: Pick<Person, "number" | "id">) => void,
     say: (text: string) => boolean,
   ) {
     byId<HTMLFormElement>("chat").addEventListener("submit", (event) => {
@@ -47,7 +49,7 @@ export class Sidebar {
     }
     sorted.forEach((person, place) => {
       const { id, number } = person;
-      const row = this.rows.get(number) ?? new Row(id, this.voice, (action) => this.moderate(action, number));
+      const row = this.rows.get(number) ?? new Row(id, this.voice, (action) => this.moderate(action, { number, id }));
       this.rows.set(number, row);
       row.show(person, number === own, chair, raised.has(person));
       const there = this.people.children[place];
@@ -59,7 +61,8 @@ export class Sidebar {
     this.rows.get(number)?.dot.classList.toggle("speaking", speaking);
   }
 
-  line(name: string, text: string, time_s: number): void {
+  /** A line of chat; a moderator's says so, as anybody may take any name. */
+  line({ name, moderator, text, time_s }: Line): void {
     const item = document.createElement("li");
     item.title = new Date(time_s * 1000).toLocaleTimeString();
     const [who, said] = [document.createElement("b"), document.createElement("bdi")];
@@ -67,7 +70,9 @@ export class Sidebar {
     isolated.textContent = name;
     who.append(isolated, " ");
     said.textContent = text;
-    item.append(who, said);
+    const mark = document.createElement("small"); // no name is written so
+    mark.textContent = moderator ? "moderator " : "";
+    item.append(who, mark, said);
     const { scrollHeight, scrollTop, clientHeight } = this.lines;
     const reads = scrollHeight - scrollTop - clientHeight > READS_PX; // further up, where a new line must not take them away
     this.lines.append(item);
