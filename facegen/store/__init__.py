@@ -14,7 +14,7 @@ from facegen.store.folder import (
     shards_of,
     write_json,
 )
-from facegen.store.images import exr_bytes, parse_png, png_bytes, read_exr, read_png
+from facegen.store.images import parse_png, png_bytes, read_exr, read_png, write_exr
 from facegen.store.keypoint_table import (
     column_array,
     keypoint_schema,
@@ -44,7 +44,6 @@ __all__ = [
     "commit_folder",
     "differing_rows",
     "draw_block",
-    "exr_bytes",
     "holds_dataset",
     "keypoint_schema",
     "keypoint_table",
@@ -70,6 +69,7 @@ __all__ = [
     "staging",
     "sweep",
     "version_note",
+    "write_exr",
     "write_json",
     "write_shard",
 ]

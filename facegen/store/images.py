@@ -5,7 +5,6 @@ bytes.
 """
 
 import struct
-import tempfile
 from pathlib import Path
 
 import cv2
@@ -75,8 +74,8 @@ def _check_size(width: int, height: int, where: str) -> None:
         )
 
 
-def exr_bytes(layers: Layers) -> bytes:
-    """An EXR file of a view's layers, parts and channels as in `EXR_PARTS`, without any date."""
+def write_exr(layers: Layers, path: Path) -> None:
+    """Write an EXR file of a view's layers, parts and channels as in `EXR_PARTS`, without any date."""
     parts = []
     for name, channels in EXR_PARTS.items():
         image = getattr(layers, name)
@@ -87,11 +86,7 @@ def exr_bytes(layers: Layers) -> bytes:
         }
         header = {"name": name, "type": OpenEXR.scanlineimage, "compression": OpenEXR.ZIP_COMPRESSION}
         parts.append(OpenEXR.Part(header, arrays))
-    # the library writes to paths only
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "layers.exr"
-        OpenEXR.File(parts).write(str(path))
-        return path.read_bytes()
+    OpenEXR.File(parts).write(str(path))
 
 
 def _size(window: tuple[np.ndarray, np.ndarray]) -> tuple[int, int]:
@@ -101,7 +96,7 @@ def _size(window: tuple[np.ndarray, np.ndarray]) -> tuple[int, int]:
 
 
 def read_exr(path: str | Path) -> Layers:
-    """The layers of a file that `exr_bytes` made.
+    """The layers of a file that `write_exr` made.
 
     Raises
     ------

@@ -4,6 +4,7 @@ import dataclasses
 import hashlib
 import importlib.metadata
 from collections.abc import Callable
+from pathlib import Path
 
 import pyarrow as pa
 
@@ -18,12 +19,12 @@ from facegen.store import (
     commit_file,
     commit_folder,
     draw_block,
-    exr_bytes,
     label_block,
     png_bytes,
     sample_record,
     shard_samples,
     staging,
+    write_exr,
     write_json,
     write_shard,
 )
@@ -80,33 +81,34 @@ class Worker:
         on_phase("draw")
         rig = dataset.rig_of(number)
         rendered = label_sample(dataset, number, self._drawn(number // BLOCK)[rig.name])
-        files = self._pictures(rendered, on_phase)
         record = sample_record(rendered, dataset_hash=dataset.hash, rig=rig.name)
-        record["render"] = {
-            "engine": "cycles",
-            "blender": importlib.metadata.version("bpy"),
-            "device": str(self._renderer.device),
-            "samples_per_pixel": dataset.spec.render.samples_per_pixel,
-            "denoise": dataset.spec.render.denoise,
-            "subsurface": dataset.spec.render.subsurface,
-        }
-        record["sha256"] = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
+        # each file is written once, where it is renamed from: on a shared disk all bytes of a farm cross one line
         with staging(dataset.folder, f"sample-{number}") as stage:
-            for name, content in files.items():
-                (stage / name).write_bytes(content)
+            self._write_pictures(rendered, stage, on_phase)
+            record["render"] = {
+                "engine": "cycles",
+                "blender": importlib.metadata.version("bpy"),
+                "device": str(self._renderer.device),
+                "samples_per_pixel": dataset.spec.render.samples_per_pixel,
+                "denoise": dataset.spec.render.denoise,
+                "subsurface": dataset.spec.render.subsurface,
+            }
+            record["sha256"] = {path.name: _sha256(path) for path in stage.iterdir()}
             write_json(stage / "sample.json", record)
             size = sum(file.stat().st_size for file in stage.iterdir())
             commit_folder(stage, dataset.folder.render(number))
         return size
 
-    def _pictures(self, rendered: RenderedSample, on_phase: Callable[[str], None]) -> dict[str, bytes]:
+    def _write_pictures(
+        self, rendered: RenderedSample, folder: Path, on_phase: Callable[[str], None]
+    ) -> None:
         from facegen.blender import open_renderer  # starting Blender costs 250 MB that shards do not need
 
         settings = self.dataset.spec.render
         if self._renderer is None:
             on_phase("start Blender")
             self._renderer = open_renderer(threads=self.threads, subsurface=settings.subsurface)
-        files, sample = {}, rendered.sample
+        sample = rendered.sample
         for view in sample.scene.views:
             on_phase(f"render {view.name}")
             render = self._renderer.render if settings.truth else self._renderer.glimpse
@@ -126,10 +128,14 @@ class Worker:
                 sample.session.unit.sensor,
                 sample.shots[view.name],
             )
-            files[f"{view.name}.png"] = png_bytes(grey)
+            (folder / f"{view.name}.png").write_bytes(png_bytes(grey))
             if settings.truth:
-                files[f"{view.name}.exr"] = exr_bytes(layers)
-        return files
+                write_exr(layers, folder / f"{view.name}.exr")
+
+
+def _sha256(path: Path) -> str:
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def draw_render_seed(seed: int, view: str, sample: int) -> int:

@@ -28,7 +28,7 @@ from facegen.scene import Mesh, Scene, View, assemble, draw_look
 from facegen.scene.assembly import headset_views
 from facegen.scene.scene import Strands
 from facegen.sensor import develop
-from facegen.store.images import exr_bytes, read_exr
+from facegen.store.images import read_exr, write_exr
 from tests.facegen.blender.digest import digest
 from tests.facegen.blender.scenes import FISHEYE, PINHOLE, eye_scene, sphere
 
@@ -187,7 +187,7 @@ def test_pictures_do_not_depend_on_process_threads_or_what_came_before(renderer)
 def test_files_hold_a_render_exactly(renderer, tmp_path):
     layers = renderer.render(eye_scene(), "eye", samples=2, seed=1)
     path = tmp_path / "eye.exr"
-    path.write_bytes(exr_bytes(layers))
+    write_exr(layers, path)
     back = read_exr(path)
     for name in ("radiance", "depth", "normal", "part", "uv"):
         assert np.array_equal(getattr(back, name), getattr(layers, name)), name
