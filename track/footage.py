@@ -1,5 +1,6 @@
 """Keeps what cameras show: a folder of pictures each, numbered by moments, and the moments' times."""
 
+import os
 import shutil
 from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -138,4 +139,9 @@ class FootageWriter:
 def _write_picture(path: Path, picture: np.ndarray) -> None:
     if picture.ndim == 3 and (picture[..., :1] == picture[..., 1:]).all():
         picture = picture[..., 0]  # an infra-red camera that calls its grey levels colours
-    path.write_bytes(cv2.imencode(".png", picture, _QUICKLY)[1].tobytes())
+    part = path.with_suffix(".part")
+    try:
+        part.write_bytes(cv2.imencode(".png", picture, _QUICKLY)[1].tobytes())
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)  # half of a picture, on a full disk

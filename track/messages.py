@@ -72,8 +72,10 @@ class Moment:
         What is wrong just now, in words for the person.
     step
         Where calibration is, while it runs.
+    said
+        The newest sentences about what was asked for, with numbers that rise.
     settings
-        What holds now: ``mirror``, ``recording``, ``calibrated``, ``profile``, and ``gains`` by shape.
+        What holds now: ``mirror``, ``recording``, ``calibrating``, ``calibrated``, ``profile``, and ``gains`` by shape.
     """
 
     sample: Sample
@@ -83,4 +85,5 @@ class Moment:
     latency_ms: Mapping[str, float] = field(default_factory=dict)
     faults: tuple[str, ...] = ()
     step: Step | None = None
+    said: tuple[tuple[int, str], ...] = ()
     settings: Mapping[str, object] = field(default_factory=dict)

@@ -1,6 +1,7 @@
 """``track record``: what cameras show comes back from the folders as it was, moment by moment."""
 
 import errno
+import shlex
 import sys
 from pathlib import Path
 
@@ -78,6 +79,8 @@ def test_colours_stay_and_grey_ones_become_grey(tmp_path: Path):
 
 def test_a_full_disk_ends_the_take_in_one_sentence(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     def full(self: Path, content: bytes) -> None:
+        with open(self, "wb") as half:
+            half.write(content[:100])
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(Path, "write_bytes", full)
@@ -89,6 +92,7 @@ def test_a_full_disk_ends_the_take_in_one_sentence(tmp_path: Path, monkeypatch: 
 
     with pytest.raises(OutputError, match=r"take: cannot be written \(No space left on device\)"):
         record()
+    assert [path.name for path in (tmp_path / "take" / "a").iterdir()] == []  # nor half of any picture
 
 
 def test_a_take_without_pictures_leaves_nothing(tmp_path: Path):
@@ -106,9 +110,13 @@ def test_a_take_that_is_there_is_kept(tmp_path: Path):
 
 def test_the_command_keeps_each_camera_s_pictures(tmp_path: Path, monkeypatch, capsys):
     cameras = [f"--camera={name}={HEADSET / name}" for name in ("left_eye", "mouth")]
-    take = tmp_path / "take"
+    take = tmp_path / "my take"
     assert ended(monkeypatch, "record", str(take), "--fast", "--seconds", "1", *cameras) == 0
-    assert f"{take / 'mouth'}: 30 pictures" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert f"{take / 'mouth'}: 30 pictures" in said
+    written = next(line for line in said.splitlines() if "regress headset check" in line)
+    options = shlex.split(written.partition("check ")[2])
+    assert options == ["--camera", f"left_eye={take / 'left_eye'}", "--camera", f"mouth={take / 'mouth'}"]
     for name in ("left_eye", "mouth"):
         sources = sorted((HEADSET / name).glob("*.png"))[:30]
         kept = sorted((take / name).glob("*.png"))

@@ -18,11 +18,15 @@ class Bus:
         self.folder, self.sockets, self.cameras = folder / "video4linux", folder / "devices", {}
         self.folder.mkdir()
 
-    def plug(self, number: int, socket: str, name: str, *, index: int = 0, sees: int = 640) -> None:
+    def plug(
+        self, number: int, socket: str, name: str, *, index: int = 0, sees: int = 640, serial: str = ""
+    ) -> None:
         node = self.folder / f"video{number}"
         node.mkdir()
         (self.sockets / socket).mkdir(parents=True, exist_ok=True)
         (node / "device").symlink_to(self.sockets / socket)
+        if serial:
+            (self.sockets / socket).parent.joinpath("serial").write_text(f"{serial}\n")
         (node / "name").write_text(f"{name}\n")
         (node / "index").write_text(f"{index}\n")
         self.cameras[number] = FakeCapture(size=(sees, 480))
@@ -85,6 +89,30 @@ def test_two_cameras_of_one_make_are_told_apart_by_their_sockets(bus: Bus):
     bus.plug(0, "usb1/1-3", "Eye", sees=640)
     bus.plug(2, "usb1/1-2", "Eye", sees=320)
     assert bus.width("2", memory) == 640
+
+
+@pytest.mark.parametrize("wanted", ["0", "Eye"])
+def test_a_camera_that_comes_back_on_another_bus_is_known_by_its_serial_number(bus: Bus, wanted: str):
+    memory = CameraMemory()
+    bus.plug(0, "usb2/2-1/2-1:1.0", "Eye", sees=320, serial="A1")
+    assert bus.width(wanted, memory) == 320
+    bus.unplug(0)
+    bus.plug(0, "usb1/1-7/1-7:1.0", "Eye", sees=640, serial="A2")
+    bus.plug(2, "usb1/1-1/1-1:1.0", "Eye", sees=320, serial="A1")
+    assert bus.width(wanted, memory) == 320
+    bus.unplug(2)
+    with pytest.raises(CameraError):
+        bus.width("0", memory)
+
+
+def test_a_serial_number_that_all_cameras_of_a_make_have_tells_nothing(bus: Bus):
+    memory = CameraMemory()
+    bus.plug(0, "usb1/1-1/1-1:1.0", "Eye", sees=320, serial="01.00.00")
+    bus.plug(2, "usb1/1-2/1-2:1.0", "Eye", sees=640, serial="01.00.00")
+    assert bus.width("0", memory) == 320
+    bus.unplug(0)
+    with pytest.raises(CameraError):
+        bus.width("0", memory)
 
 
 def test_nodes_of_one_camera_are_told_apart(bus: Bus):

@@ -26,6 +26,7 @@ from tests.track.virtual import noise, told
 from track.errors import CameraError
 from track.sources import SOURCES, Pace, open_capture, open_source
 from track.sources.addresses import SCHEMES, is_address, is_local
+from track.sources.films import Film
 from track.sources.lines import Lines
 from track.sources.webcams import WebcamSource, list_webcams
 
@@ -281,6 +282,18 @@ def test_a_film_is_turned_as_it_says(tmp_path: Path):
     for picture in read_all(source):
         assert picture.pixels.shape == upright.shape
         assert np.abs(picture.pixels.astype(int) - upright).mean() < 10
+
+
+def test_a_film_whose_next_picture_is_due_in_an_hour_can_be_stopped(tmp_path: Path, monkeypatch):
+    film = Film(film_of(tmp_path / "film.avi", [noise(number) for number in range(2)]))
+    assert film.read() is not None
+    monkeypatch.setattr(film, "now_s", lambda: -3600.0)
+    reading = threading.Thread(target=film.read, daemon=True)
+    reading.start()
+    film.stop()
+    reading.join(60)
+    assert not reading.is_alive()
+    film.close()
 
 
 def test_a_film_that_is_gone_does_not_come_again(tmp_path: Path):

@@ -24,6 +24,7 @@ def record(
     Example: track record take --camera left_eye=0 --camera right_eye=1 --camera mouth=2
     """
     import math
+    import shlex
 
     from facegen.console import counted, progress, say
     from facegen.files import check_new_folder
@@ -56,5 +57,5 @@ def record(
     for name, count in writer.written.items():
         say(f"{folder / name}: {counted(count, 'picture')}")
     if are_named(wishes.cameras):
-        options = " ".join(f"--camera {name}={folder / name}" for name in texts)
+        options = " ".join(f"--camera {shlex.quote(f'{name}={folder / name}')}" for name in texts)
         say(f"whether a network can use them says: regress headset check {options}")

@@ -39,9 +39,9 @@ def named_targets(
 
     targets = [("--to", parse_target(each)) for each in to]
     for path in record:
-        if path.suffix not in RECORDINGS:
+        if path.suffix.lower() not in RECORDINGS:
             raise InputError(f"--record {path}: a recording ends with {', '.join(RECORDINGS)}")
-        targets.append(("--record", Target(name=RECORDINGS[path.suffix], place=str(path))))
+        targets.append(("--record", Target(name=RECORDINGS[path.suffix.lower()], place=str(path))))
     if retarget is None:
         return targets
     if not any(target.name in NAMED for _, target in targets):

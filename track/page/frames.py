@@ -82,6 +82,7 @@ def frame(moment: Moment, number: int, *, cameras: Sequence[str]) -> str:
             "latency": dict(moment.latency_ms),
             "faults": list(moment.faults),
             "step": None if moment.step is None else asdict(moment.step),
+            "said": moment.said,
             "settings": dict(moment.settings),
         }
     )

@@ -38,7 +38,8 @@ def camera_key(titles: Mapping[str, str]) -> str:
         By the camera's name: ``"camera"`` where it is the only one and has none.
     """
     sources = {name: _DEVICE.sub(r"camera \1", title) for name, title in sorted(titles.items())}
-    return " ".join(title if name == "camera" else f"{name}={title}" for name, title in sources.items())
+    key = " ".join(title if name == "camera" else f"{name}={title}" for name, title in sources.items())
+    return key.encode(errors="backslashreplace").decode()  # a file's name may be no text
 
 
 def known_path(named: str | None, titles: Mapping[str, str]) -> Path:
@@ -169,7 +170,11 @@ def _as_name(camera: str) -> str:
     """A camera's title as part of a file's name: in ASCII, and with a mark where letters are lost."""
     name = re.sub(r"[^A-Za-z0-9_-]+", "-", camera).strip("-").lower() or "camera"
     whole = camera.isascii() and len(name) <= _LONGEST
-    return name if whole else f"{name[:_LONGEST]}-{hashlib.sha256(camera.encode()).hexdigest()[:8]}"
+    return (
+        name
+        if whole
+        else f"{name[:_LONGEST]}-{hashlib.sha256(camera.encode(errors='backslashreplace')).hexdigest()[:8]}"
+    )
 
 
 def _as_former_name(camera: str) -> str:

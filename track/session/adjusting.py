@@ -46,6 +46,8 @@ class Adjusting:
         itself. A film's are not kept: it gives the same answers each time.
     say
         Told what a person should know, a sentence each.
+    say_end
+        Told how calibration ended, which its `step` says as well.
 
     Attributes
     ----------
@@ -68,6 +70,7 @@ class Adjusting:
         own_blinks: bool,
         keep_found: bool,
         say: Callable[[str], None],
+        say_end: Callable[[str], None],
     ) -> None:
         self.profile = profile
         self.step: Step | None = None
@@ -76,7 +79,7 @@ class Adjusting:
         self.person = Person(
             profile, mirrored=profile.mirror if mirror is None else mirror, blinks=self._blinks
         )
-        self._pipeline, self._say, self._keep = pipeline, say, keep
+        self._pipeline, self._say, self._say_end, self._keep = pipeline, say, say_end, keep
         self._kept = profile if kept is None else kept
         self._own_neutral: NeutralFace | None = None
         self._kept_neutral: NeutralFace | None = None
@@ -167,7 +170,7 @@ class Adjusting:
             self._calibration = None
             if calibration.name == "neutral" and not calibration.kept:
                 self._use_known_neutral()
-            self._say(f"calibration: {self.step.text.lower()}")
+            self._say_end(f"calibration: {self.step.text.lower()}")
 
     def take(self, outcome: Outcome) -> None:
         """Use what calibration found from the next frame on, and keep it beside all that it was found with."""

@@ -79,7 +79,7 @@ class Recordings:
         """
         try:
             recording.close()
-            if own:
+            if own and recording.kept:
                 self._say(f"recorded {recording.title}")
         except FacegenError as error:
             if str(error) != told:

@@ -19,6 +19,7 @@ from track.session.fault_telling import FaultTelling
 from track.session.measures import Measures, Summary
 from track.session.pipeline import Pipeline
 from track.session.recordings import Recordings
+from track.session.told import Told
 from track.session.undisturbed import undisturbed
 from track.sinks.sink import Sink
 
@@ -90,7 +91,7 @@ class Session:
         keep_found: bool = False,
         timed: bool = True,
     ) -> None:
-        self.pipeline, self.sinks, self._say = pipeline, list(sinks), say
+        self.pipeline, self.sinks, self._told = pipeline, list(sinks), Told(say)
         self.adjusting = Adjusting(
             pipeline,
             profile,
@@ -99,11 +100,12 @@ class Session:
             mirror=mirror,
             own_blinks=own_blinks,
             keep_found=keep_found,
-            say=say,
+            say=self._told,
+            say_end=say,
         )
         self.measures, self._telling = Measures(), FaultTelling(say)
         self._commands: queue.Queue[Command] = queue.Queue(MOST_COMMANDS)
-        self._recordings = Recordings(self.sinks, new_recording, say)
+        self._recordings = Recordings(self.sinks, new_recording, self._told)
         self._pictures_wanted, self._timed, self._stopped = False, timed, False
         self._faces, self._first_s, self._last_s = 0, None, 0.0
 
@@ -189,9 +191,11 @@ class Session:
             latency_ms=latency_ms,
             faults=self._telling.now,
             step=self.adjusting.step,
+            said=self._told.newest,
             settings={
                 "mirror": self.adjusting.person.mirrored,
                 "recording": self._recordings.under_way,
+                "calibrating": self.adjusting.calibrating,
                 "calibrated": self.profile.neutral is not None,
                 "profile": self.profile.person,
                 "gains": self.adjusting.gains_shown,
@@ -254,7 +258,7 @@ class Session:
             try:
                 self._do(command)
             except InputError as error:
-                self._say(str(error))
+                self._told(str(error))
 
     def _do(self, command: Command) -> None:
         if command.verb == "record":

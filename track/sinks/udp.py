@@ -62,7 +62,9 @@ class UdpSink(Sink):
             except OSError as error:
                 if not self._told:
                     self._told = True
-                    self._tell(f"{self.title}: nothing can be sent ({error.strerror}); going on without it")
+                    self._tell(
+                        f"{self.title}: nothing can be sent ({error.strerror}); going on, and trying again"
+                    )
 
 
 def _parting(last: Sample) -> tuple[Sample, Sample]:

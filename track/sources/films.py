@@ -1,6 +1,7 @@
 """Pictures of a film, at its own pace as a camera gives them, or one by one as fast as they are taken."""
 
 import math
+import threading
 import time
 from pathlib import Path
 
@@ -52,6 +53,7 @@ class Film(Source):
         self.length_s = count * self.step_s if math.isfinite(count) and count > 0 and not again else None
         self._next_s = self._last_s = self._before_s = 0.0
         self._begun_s: float | None = None
+        self._stopped = threading.Event()
 
     def read(self) -> Picture | None:
         """The next picture, when it is due."""
@@ -70,7 +72,7 @@ class Film(Source):
                 self._begun_s = time.perf_counter() - self._last_s
             if self.now_s() > self._last_s + BEHIND_S:
                 self._begun_s = time.perf_counter() - self._last_s
-            time.sleep(max(0.0, self._last_s - self.now_s()))
+            self._stopped.wait(max(0.0, self._last_s - self.now_s()))
         return Picture(time_s=self._last_s, pixels=pixels)
 
     def now_s(self) -> float:
@@ -78,6 +80,10 @@ class Film(Source):
         return (
             time.perf_counter() - self._begun_s if self.live and self._begun_s is not None else self._last_s
         )
+
+    def stop(self) -> None:
+        """Wait for no picture's moment any more: times in a film may have a gap of hours."""
+        self._stopped.set()
 
     def close(self) -> None:
         """Close the file."""

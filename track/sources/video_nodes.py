@@ -2,7 +2,8 @@
 
 import os
 import re
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 FOLDER = Path("/sys/class/video4linux")
@@ -29,21 +30,25 @@ class Webcam:
 
 @dataclass(frozen=True, kw_only=True)
 class Identity:
-    """What stays of a camera that is unplugged and plugged into the same socket, while its number may change.
+    """What stays of a camera that is unplugged and plugged in again, while its number may change.
 
     Parameters
     ----------
     socket
-        The device's place in the tree of buses; a camera of the same make at another socket has another one.
+        The device's place in the tree of buses; a camera of the same make at another socket has another one, and so has
+        the same camera where a loose USB 3 plug makes it one of USB 2.
     name
         As its driver calls it.
     index
         Which of the device's nodes it is.
+    serial
+        As the camera gives it; empty where it gives none, or others of its make have the same one.
     """
 
     socket: str
     name: str
     index: str
+    serial: str = ""
 
 
 def identity_of(number: int, folder: Path = FOLDER) -> Identity | None:
@@ -56,13 +61,46 @@ def identity_of(number: int, folder: Path = FOLDER) -> Identity | None:
         return None
     if not (node / "device").exists():
         return None
-    return Identity(socket=os.path.realpath(node / "device"), name=name, index=index)
+    socket = os.path.realpath(node / "device")
+    try:
+        serial = (Path(socket).parent / "serial").read_text(encoding="utf-8", errors="replace").strip()
+    except OSError:
+        serial = ""
+    return Identity(socket=socket, name=name, index=index, serial=serial)
+
+
+def lasting_identity(number: int, folder: Path = FOLDER) -> Identity | None:
+    """The same to be kept: with a serial number only where no other camera has it, as of cheap ones all have one."""
+    identity = identity_of(number, folder)
+    if identity is None or len(_numbers_where(folder, lambda each: _serial(each) == _serial(identity))) == 1:
+        return identity
+    return replace(identity, serial="")
 
 
 def numbers_of(identity: Identity, folder: Path = FOLDER) -> list[int]:
-    """The numbers that a camera has now: one, or none while it is away."""
+    """The numbers that a camera has now: one, or none while it is away.
+
+    It is where it was, or, as the only one of its make and serial number, anywhere.
+    """
+    found = _numbers_where(folder, lambda each: _place(each) == _place(identity))
+    if found or not identity.serial:
+        return found
+    moved = _numbers_where(folder, lambda each: _serial(each) == _serial(identity))
+    return moved if len(moved) == 1 else []
+
+
+def _numbers_where(folder: Path, test: Callable[[Identity], bool]) -> list[int]:
     numbers = [int(node.name[5:]) for node in folder.glob("video*") if node.name[5:].isdecimal()]
-    return sorted(number for number in numbers if identity_of(number, folder) == identity)
+    known = {number: identity_of(number, folder) for number in sorted(numbers)}
+    return [number for number, identity in known.items() if identity is not None and test(identity)]
+
+
+def _place(identity: Identity) -> tuple[str, str, str]:
+    return identity.socket, identity.name, identity.index
+
+
+def _serial(identity: Identity) -> tuple[str, str, str]:
+    return identity.serial, identity.name, identity.index
 
 
 def device_number(wanted: str) -> int | None:

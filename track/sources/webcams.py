@@ -24,6 +24,7 @@ from track.sources.video_nodes import (
     device_number,
     identity_of,
     is_numbered,
+    lasting_identity,
     number_of,
     numbers_of,
 )
@@ -166,7 +167,7 @@ class WebcamSource(Source):
         """Which camera it is, so that no other takes its place when it comes back."""
         memory = self._memory
         if sys.platform.startswith("linux"):
-            memory.identity = memory.identity or identity_of(number, folder)
+            memory.identity = memory.identity or lasting_identity(number, folder)
         elif memory.opened:
             memory.tell(
                 "number",

@@ -30,6 +30,8 @@ export class CalibrationView {
   private phase = "";
   private most = 1;
   private told = 0;
+  /** Whether it can be ended: also between two faces, where none is asked for. */
+  private underWay = false;
   /** Whether this page saw a face being asked for. */
   private saw = false;
 
@@ -40,7 +42,7 @@ export class CalibrationView {
     });
     this.cancel.addEventListener("click", cancel);
     addEventListener("keydown", ({ key }) => {
-      if (key === "Escape" && this.runs) cancel();
+      if (key === "Escape" && this.underWay) cancel();
     });
   }
 
@@ -64,7 +66,8 @@ export class CalibrationView {
     this.write(this.person, calibrated ? `as ${profile ?? "somebody"}` : "not calibrated yet");
   }
 
-  show(step: Step | null): void {
+  show(step: Step | null, underWay?: boolean): void {
+    this.underWay = underWay ?? (step !== null && runs(`${step.name} ${step.state}`));
     if (!step) {
       if (this.runs) this.card.hidden = true; // it was cut off
       this.phase = "";
@@ -85,7 +88,8 @@ export class CalibrationView {
     this.write(this.name, `${words(step.name)} · ${STATES[step.state]}`);
     this.write(this.text, step.text);
     this.write(this.seconds, this.runs ? `${Math.ceil(step.seconds_left)}` : "");
-    this.progress.hidden = this.cancel.hidden = !this.runs;
+    this.progress.hidden = !this.runs;
+    this.cancel.hidden = !this.underWay;
     this.progress.value = 1 - Math.min(step.seconds_left / this.most, 1);
   }
 

@@ -8,8 +8,9 @@ const PAUSES_S = [0.5, 1, 2, 4, 5];
 const SILENT_S = 2;
 /** WebSocket's word for a server that ends on purpose. */
 const GOING_AWAY = 1001;
-/** HTTP's status where the link's token is another one. */
+/** HTTP's status where the link's token is another one, and where as many tabs look as may. */
 const FORBIDDEN = 403;
+const UNAVAILABLE = 503;
 
 export type State = "connecting" | "live" | "waiting" | "lost";
 
@@ -102,14 +103,14 @@ export class Connection {
     this.again = setTimeout(() => this.open(), 1000 * pause);
   }
 
-  /** Say why; a socket does not tell that the link is of another run, and the page's own address does. */
+  /** Say why; a socket does not tell how it was refused, and the same address without one does. */
   private async lost(why: string): Promise<void> {
-    const answer = this.tries > 1 ? await fetch(location.href, { method: "HEAD" }).catch(() => undefined) : undefined;
+    const address = new URL(`stream${location.search}`, location.href);
+    const answer = this.tries > 1 ? await fetch(address).catch(() => undefined) : undefined;
+    const refusal = answer?.status === UNAVAILABLE ? (await answer.text().catch(() => "")).trim() : "";
     if (this.resting || this.socket?.readyState === WebSocket.OPEN) return;
-    const sentence =
-      answer?.status === FORBIDDEN
-        ? "track has another link by now: open the one that it printed last"
-        : `${why}; this page goes on when it is there again`;
+    let sentence = `${refusal || why}; this page goes on when ${refusal ? "there is room" : "it is there again"}`;
+    if (answer?.status === FORBIDDEN) sentence = "track has another link by now: open the one that it printed last";
     this.listener.state("lost", sentence);
   }
 }

@@ -16,6 +16,7 @@ export interface Hello {
 export interface Settings {
   readonly mirror?: boolean;
   readonly recording?: boolean;
+  readonly calibrating?: boolean;
   readonly calibrated?: boolean;
   readonly profile?: string | null;
   readonly gains?: Readonly<Record<string, number>>;
@@ -41,6 +42,8 @@ export interface Frame {
   readonly latency: { readonly p50?: number | null; readonly p95?: number | null };
   readonly faults: readonly string[];
   readonly step: Step | null;
+  /** The newest sentences about what was asked for, with numbers that rise. */
+  readonly said?: readonly (readonly [number, string])[];
   readonly settings: Settings;
 }
 

@@ -68,6 +68,8 @@ function faceOf({ weights, gaze, head }: Frame, order: readonly number[]): Face 
 let order: readonly number[] = SHAPES.map((_, index) => index);
 let face: Face | undefined;
 let measuredAt = 0;
+/** Number of the last sentence that was shown; none behind a greeting, as what was said before it is of no use now. */
+let heard: number | undefined;
 
 const stage = new Stage(say);
 const weights = new Weights(byId("regions"), (shape, value) => connection.send({ verb: "gain", shape, value }));
@@ -110,6 +112,13 @@ function showFaults(faults: readonly string[]): void {
   );
 }
 
+/** What came of what was asked for: the terminal, which has it too, is seldom in sight. */
+function showSaid(said: Required<Frame>["said"]): void {
+  const fresh = said.filter(([number]) => heard !== undefined && number > heard);
+  if (fresh.length) say(fresh.map(([, text]) => text.charAt(0).toUpperCase() + text.slice(1)).join(". "));
+  heard = Math.max(heard ?? 0, ...said.map(([number]) => number));
+}
+
 function showMeasures({ fps, latency }: Frame): void {
   const now = performance.now();
   if (now - measuredAt < MEASURES_MS) return;
@@ -128,6 +137,7 @@ const connection: Connection = new Connection({
     calibration.show(null);
   },
   hello(hello: Hello) {
+    heard = undefined;
     order = SHAPES.map((shape) => hello.shapes.indexOf(shape));
     cameras.name(hello.cameras);
     calibration.offer(hello.steps);
@@ -138,8 +148,9 @@ const connection: Connection = new Connection({
     face = faceOf(news, order);
     if (face) recorder.add(face);
     cameras.expect(news.cameras);
-    calibration.show(news.step);
+    calibration.show(news.step, news.settings.calibrating);
     showFaults(news.faults);
+    showSaid(news.said ?? []);
     showMeasures(news);
     const { settings } = news;
     recorder.follow(settings.recording);

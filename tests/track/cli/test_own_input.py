@@ -100,6 +100,12 @@ def test_lines_that_come_from_a_file_stay(tmp_path):
     assert (tmp_path / "take.csv").read_text() == "1 2 3\n"
 
 
+@pytest.mark.parametrize(("file", "name"), [("Take.CSV", "csv"), ("take.Glb", "gltf"), ("a.b.VRMA", "vrma")])
+def test_the_case_of_a_recording_s_ending_means_nothing(file: str, name: str):
+    ((_, target),) = named_targets(record=[Path(file)])
+    assert (target.name, target.place) == (name, file)
+
+
 def test_a_recording_s_name_has_any_commas_and_a_retargeting_beside_it():
     (told,) = named_targets(record=[Path("take,v=1.csv")], retarget="vrm1")
     assert told[1].path == Path("take,v=1.csv")

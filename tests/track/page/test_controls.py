@@ -1,7 +1,9 @@
 """The page's controls in a real browser: what is clicked arrives at the session, and what holds is shown."""
 
 import asyncio
+import contextlib
 
+import aiohttp
 import numpy as np
 import pytest
 
@@ -10,6 +12,7 @@ from tests.browser import needs_chromium
 from tests.track.page.stand import STEPS, moment_of, standing
 from track.messages import Command, Step
 from track.page import Page
+from track.page.server import MOST_VIEWERS
 
 pytestmark = [needs_chromium, pytest.mark.slow]
 
@@ -151,6 +154,62 @@ def test_calibration_says_what_to_do_and_can_be_cancelled(loop, stand):
             stand.page.publish(moment_of(np.zeros(52), step=over))
             await asyncio.sleep(0.05)
         assert await stand.tab.ask("again") == 0
+
+    loop.run_until_complete(look())
+
+
+@pytest.mark.parametrize("way", ["asking-cancel.click()", "dispatchEvent(escape)"])
+def test_calibration_can_be_ended_between_two_faces(loop, stand, way):
+    asked = Step(name="jaw_open", state="recording", seconds_left=1.0, text="Open")
+    good = Step(name="jaw_open", state="done", seconds_left=0.7, text="Good")
+    escape = "new KeyboardEvent('keydown', { key: 'Escape' })"
+    script = way.replace("asking-cancel", "document.getElementById('asking-cancel')").replace(
+        "escape", escape
+    )
+
+    async def look():
+        assert (await stand.asks(1))[0] == Command(verb="picture", value=True)
+        going_on = {"settings": {"calibrating": True}}
+        await stand.publish_until(
+            "document.getElementById('asking-text').textContent", step=asked, **going_on
+        )
+        await stand.publish_until(
+            "document.getElementById('asking-text').textContent === 'Good'", step=good, **going_on
+        )
+        assert not await stand.tab.ask("document.getElementById('asking-cancel').hidden")
+        await stand.tab.ask(f"void {script}")
+        assert await stand.asks(1) == [Command(verb="cancel")]
+        over = {"settings": {"calibrating": False}}
+        await stand.publish_until("document.getElementById('asking-cancel').hidden", step=good, **over)
+
+    loop.run_until_complete(look())
+
+
+def test_what_came_of_what_was_asked_for_is_shown(loop, stand):
+    said = "document.getElementById('said')"
+
+    async def look():
+        before = ((4, "said before this page came"),)
+        await stand.publish_until("connection.dataset.state === 'live'", said=before)
+        assert await stand.tab.ask(f"{said}.hidden")
+        now = (*before, (5, "the head is centred"), (6, "recorded csv to <b>a.csv</b>"))
+        shown = "The head is centred. Recorded csv to <b>a.csv</b>"
+        await stand.publish_until(f"{said}.textContent === '{shown}'", said=now)
+        assert not await stand.tab.ask(f"{said}.hidden")
+
+    loop.run_until_complete(look())
+
+
+def test_a_tab_too_many_is_told_what_to_do(loop, browser, egg):
+    async def look():
+        async with aiohttp.ClientSession() as session, contextlib.AsyncExitStack() as others:
+            with Page([].append, steps=STEPS, avatar=egg) as page:
+                for _ in range(MOST_VIEWERS):
+                    await others.enter_async_context(session.ws_connect(f"{page.url}stream"))
+                async with browser.open(page.url) as tab:
+                    await tab.until(
+                        f"globalThis.track && connection.textContent.startsWith('{MOST_VIEWERS} tabs look already')"
+                    )
 
     loop.run_until_complete(look())
 

@@ -1,5 +1,7 @@
 """Profiles: the same after writing and reading, refused in a sentence where they are something else."""
 
+import os
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -197,6 +199,15 @@ def test_a_webcam_is_the_same_by_its_number_and_its_device(half):
     spelled = [{"mouth": f"{title}{half}"} for title in ("camera 2", "/dev/video2")]
     assert camera_key(spelled[0]) == camera_key(spelled[1])
     assert camera_key({"camera": f"/dev/video2{half}"}) == f"camera 2{half}"
+
+
+def test_a_camera_whose_name_is_no_text_has_a_profile(folder):
+    titles = {"camera": os.fsdecode(b"caf\xe9")}
+    path = known_path("anna", titles)
+    write_profile(path, Profile(person="anna", camera=camera_key(titles)))
+    assert known_path("anna", titles) == path
+    assert read_profile(path).camera == "caf\\udce9"
+    assert path != known_path("anna", {"camera": os.fsdecode(b"caf\xe8")})
 
 
 def test_other_cameras_are_other_profiles():

@@ -51,6 +51,7 @@ class Kept(Sink):
     """A sink that remembers."""
 
     title = "kept"
+    kept = True
 
     def __init__(self) -> None:
         self.samples: list[Sample] = []

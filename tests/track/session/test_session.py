@@ -255,6 +255,20 @@ def test_the_page_s_recording_is_opened_and_closed():
     assert len(session.sinks) == 1
 
 
+def test_what_came_of_what_was_asked_for_is_told_on_the_page_too():
+    said: list[str] = []
+    session = new_session(new_recording=full, said=said)
+    told = {}
+    commands = (Command(verb="record", value=True), Command(verb="calibrate", value="ears"))
+    for command, sample in zip(commands, frames(0, 2), strict=True):
+        session.ask(command)
+        (answer,) = session.answer(sample)
+        told |= dict(session.moment(answer).said)
+    assert list(told.values()) == said
+    assert list(told) == [1, 2]
+    assert "no space left" in told[1]
+
+
 class Slow(Kept):
     """Takes its time to be whole, as on a disk that is busy."""
 
