@@ -25,9 +25,11 @@ public class FaceWeights : MonoBehaviour
         "browInnerUp", "browOuterUpLeft", "browOuterUpRight", "cheekPuff", "cheekSquintLeft",
         "cheekSquintRight", "noseSneerLeft", "noseSneerRight", "tongueOut",
     };
-    // Share of the newest frame in what is shown: .5 at 30 frames a second smooths without a visible lag.
+    // Share of the newest frame in what is shown, at 30 frames a second: .5 smooths without a visible lag. At other rates
+    // it smooths over as long a time.
     [Range(.05f, 1f)] public float newest = .5f;
     float[] shown;
+    float shownAt = float.NegativeInfinity;
     Worker worker;
     readonly List<Shape> shapes = new List<Shape>();
 
@@ -129,9 +131,11 @@ public class FaceWeights : MonoBehaviour
 
     void Show(float[] weights)
     {
+        double kept = newest < 1 ? System.Math.Pow(1 - newest, 30 * (Time.time - shownAt)) : 0;
+        shownAt = Time.time;
         for (int i = 0; i < shown.Length; i++)
             if (!float.IsNaN(weights[i]))
-                shown[i] += newest * (weights[i] - shown[i]);
+                shown[i] += (float)(1 - kept) * (weights[i] - shown[i]);
         foreach (var shape in shapes)
             shape.Mesh.SetBlendShapeWeight(shape.Index, shape.Whole * shown[shape.Weight]);
     }

@@ -23,7 +23,8 @@ public sealed class HeadsetWeights : IDisposable
     }
 
     // Weights have the order of "shapes" in headset.json. Gaze is yaw and pitch of the left eye, then of the right one,
-    // in radians, yaw to the subject's left. SameSeat below .5: the headset has moved since the neutral pictures.
+    // in radians, yaw to the subject's left. SameSeat below .5: the headset has moved since the neutral pictures; NaN
+    // without such pictures.
     public sealed class Answer
     {
         public float[] Weights, Gaze;
@@ -42,7 +43,15 @@ public sealed class HeadsetWeights : IDisposable
             session = new InferenceSession(graph, options);
     }
 
-    // Grey pictures by camera, rows from the top; a camera that is missing is left out, but one is needed. Neutral
+    // The bytes of headset.onnx, where no path leads to it, as in an Android package.
+    public HeadsetWeights(byte[] graph, params Camera[] cameras)
+    {
+        this.cameras = cameras;
+        using (var options = new SessionOptions { IntraOpNumThreads = 1 })
+            session = new InferenceSession(graph, options);
+    }
+
+    // Grey pictures by camera, laid and levelled as docs/your-camera.md says ("In another program"), rows from the top; a camera that is missing is left out, but one is needed. Neutral
     // pictures may be null.
     public Answer Predict(
         IReadOnlyDictionary<string, byte[]> pictures, IReadOnlyDictionary<string, byte[]> neutral = null)
@@ -68,7 +77,8 @@ public sealed class HeadsetWeights : IDisposable
         using (var results = session.Run(inputs, outputs))
         {
             var found = results.ToDictionary(one => one.Name, one => one.AsEnumerable<float>().ToArray());
-            return new Answer { Weights = found["weights"], Gaze = found["gaze"], SameSeat = found["same_seat"][0] };
+            var sameSeat = neutral == null ? float.NaN : found["same_seat"][0];
+            return new Answer { Weights = found["weights"], Gaze = found["gaze"], SameSeat = sameSeat };
         }
     }
 

@@ -28,8 +28,12 @@ public class PlayPoints : MonoBehaviour
     static float[] Numbers(string line)
     {
         var words = line.Split(new[] { ' ' }, StringSplitOptions.RemoveEmptyEntries);
-        return Array.ConvertAll(words, word => float.Parse(word, CultureInfo.InvariantCulture));
+        return Array.ConvertAll(words, Number);
     }
+
+    // "nan", as NumPy writes a lost face's points, is NaN, like all that is no number: the avatar stays as it was.
+    static float Number(string word) =>
+        float.TryParse(word, NumberStyles.Float, CultureInfo.InvariantCulture, out float number) ? number : float.NaN;
 
     void Update()
     {

@@ -23,10 +23,10 @@ LINE_WIDTH = 110
 C_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 _TAKEN = frozenset(
-    "alone calibrated assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdarg "
+    "assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdarg "
     "stdbool stddef stdint stdio stdlib string tgmath time wchar wctype features".split()
 )
-"""The file has static functions of the first two; a header of the others hides C's own from ``#include <math.h>``."""
+"""A header of such a name hides C's own from ``#include <math.h>``."""
 
 _OF_CALLS = 2048
 """Bytes of stack of the functions that measure a face, and take noise off, while an answer is computed."""
@@ -38,11 +38,10 @@ _UNITS = """
  *     y upward, is not told from others: its weights are wrong."""
 
 _PREDICT = "void ${name}_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
-_ALONE = "static void alone_predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
+_ALONE = "static void ${of}predict(const float points[${GUARD}_POINTS][2], float weights[${GUARD}_WEIGHTS])"
 _CALIBRATED = """\
-static void calibrated_predict(const float points[${GUARD}_POINTS][2],
-                               const double neutral[CALIBRATED_FEATURES],
-                               float weights[${GUARD}_WEIGHTS])"""
+static void ${of}predict(const float points[${GUARD}_POINTS][2], const double neutral[${OF}FEATURES],
+                         float weights[${GUARD}_WEIGHTS])"""
 
 
 def export_c(formula: Formula, name: str) -> dict[str, bytes]:
@@ -61,12 +60,14 @@ def export_c(formula: Formula, name: str) -> dict[str, bytes]:
             f"underscores, a letter first"
         )
     if name.lower() in _TAKEN:
-        raise InputError(
-            f"--name {name!r} is taken by a header of C or a function of the file; name another, as face"
-        )
+        raise InputError(f"--name {name!r} is taken by a header of C; name another, as face")
+    own = "" if formula.as_paper else f"{name}_"
     words = {
         "name": name,
-        "own": f"{name}_",
+        # what the file keeps to itself is called by the name too: builds may put files of several models together
+        "own": own,
+        "OWN": own.upper(),
+        "finite": "" if formula.as_paper else _filled("finite.c", {}),
         "units": "" if formula.as_paper else _UNITS,
         "GUARD": name.upper(),
         "title": f"{name}: {LANDMARK_COUNT} facial landmarks to {len(BLENDSHAPES)} avatar weights.",
@@ -78,15 +79,15 @@ def export_c(formula: Formula, name: str) -> dict[str, bytes]:
         "names": _wrapped(f'"{name}"' for name in BLENDSHAPES),
     }
     if formula.calibrated is None:
-        sets = [_set_of(formula.alone, _PREDICT, words)]
+        sets = [_set_of(formula.alone, _PREDICT, words, of=own)]
         functions, player = "predict.h", ""
     else:
         words["neutral_count"] = formula.calibrated.measures.count
         words |= {"outline": _wrapped(map(str, OUTLINE)), "flat": f"{FLAT:g}", "turned": f"{MOST_AREA:g}"}
         words["stack_kb"] = max(map(_stack_kb, (formula.alone, formula.calibrated)))
         sets = [
-            _set_of(formula.alone, _ALONE, words, of="alone_"),
-            _set_of(formula.calibrated, _CALIBRATED, words, of="calibrated_", neutral="neutral[i] - "),
+            _set_of(formula.alone, _ALONE, words, of=f"{own}alone_"),
+            _set_of(formula.calibrated, _CALIBRATED, words, of=f"{own}calibrated_", neutral="neutral[i] - "),
         ]
         functions, player = "player.h", _filled("player.c", words)
     whole = {key: "".join(texts[key] for texts in sets) for key in sets[0]}

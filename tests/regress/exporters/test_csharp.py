@@ -29,7 +29,7 @@ namespace UnityEngine {
     }
     public static class Application { public static string streamingAssetsPath; }
     public class TextAsset { public string text; }
-    public static class Time { public static float deltaTime; }
+    public static class Time { public static float deltaTime, time; }
     public static class Debug { public static void LogError(string said) { System.Console.WriteLine(said); } }
     public class RangeAttribute : System.Attribute { public RangeAttribute(float least, float most) { } }
     public static class Mathf {
@@ -134,7 +134,9 @@ PLAYING = """
     Action<object, string> call = (what, method) => what.GetType().GetMethod(
         method, System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance).Invoke(what, null);
     Func<int, string> line = first => first + ".5 " + string.Join(" ", Enumerable.Range(1, 135).Select(i => i * i % 5));
-    foreach (var text in new[] { line(0) + "\\r\\n" + line(1) + "\\n" + line(2) + "\\n", "1 2 3" }) {
+    var lost = string.Join(" ", Enumerable.Repeat("nan", 136));
+    var three = line(0) + "\\r\\n" + line(1) + "\\n" + line(2) + "\\n";
+    foreach (var text in new[] { three, "1 2 3", line(0) + "\\n" + lost }) {
         Unity.InferenceEngine.Worker.Given.Clear();
         var face = new FaceWeights();
         UnityEngine.MonoBehaviour.Beside = face;
@@ -148,13 +150,37 @@ PLAYING = """
 """
 
 
+SMOOTHING = """
+    var shapes = new UnityEngine.Mesh { Names = new[] { "jawOpen" } };
+    var mesh = new UnityEngine.SkinnedMeshRenderer { sharedMesh = shapes };
+    UnityEngine.MonoBehaviour.Below = new[] { mesh };
+    var flags = System.Reflection.BindingFlags.NonPublic | System.Reflection.BindingFlags.Instance;
+    foreach (var rate in new[] { 30, 60, 90 }) {
+        UnityEngine.Time.time = 0;
+        var face = new FaceWeights();
+        typeof(FaceWeights).GetMethod("Start", flags).Invoke(face, null);
+        Action<float> show = open => typeof(FaceWeights).GetMethod("Show", flags).Invoke(
+            face, new object[] { Enumerable.Repeat(open, 52).ToArray() });
+        show(0);
+        for (int i = 1; i <= rate / 10; i++) { UnityEngine.Time.time = i / (float)rate; show(1); }
+        Console.WriteLine(Math.Round(mesh.Shown["jawOpen"], 2));
+    }
+"""
+
+
+def test_smoothing_takes_as_long_at_any_rate(tmp_path: Path):
+    """A tenth of a second of .5 at 30 frames a second: what was shown has an eighth left."""
+    assert answer_of("FaceWeights.cs", UNITY, SMOOTHING, tmp_path) == ["87.5"] * 3
+
+
 def test_recorded_points_are_played_by_the_clock_and_the_first_one_is_neutral(tmp_path: Path):
     """Updates at 0.67, 1.33, 2, 2.67 and 3.33 frames of three, where numbers are usually written with commas."""
-    played, refused, nothing = answer_of(("FaceWeights.cs", "PlayPoints.cs"), UNITY, PLAYING, tmp_path)
+    played, refused, nothing, lost = answer_of(("FaceWeights.cs", "PlayPoints.cs"), UNITY, PLAYING, tmp_path)
     given = [f"points {first}, neutral 0.5" for first in ("0.5", "1.5", "2.5", "0.5")]
     assert played == ", ".join(given)
     assert refused.startswith("The first line is no neutral face")
     assert nothing == ""
+    assert lost.startswith("points 0.5, neutral 0.5, points NaN, neutral 0.5"), "nan, as NumPy writes it"
 
 
 PAGE_CLASSES = """
@@ -216,6 +242,7 @@ namespace Microsoft.ML.OnnxRuntime {
     public class Results : List<NamedOnnxValue>, IDisposable { public void Dispose() { } }
     public class InferenceSession : IDisposable {
         public InferenceSession(string graph, SessionOptions options) { }
+        public InferenceSession(byte[] graph, SessionOptions options) { }
         public Results Run(IEnumerable<NamedOnnxValue> inputs, IEnumerable<string> outputs) {
             var present = (float[])inputs.First(one => one.Name == "present").Values;
             var found = new Results();
@@ -228,8 +255,12 @@ namespace Microsoft.ML.OnnxRuntime {
 """
 
 ANSWERING = """
-    using (var weights = new HeadsetWeights("headset.onnx",
-            new HeadsetWeights.Camera("mouth", 2, 2), new HeadsetWeights.Camera("left_eye", 2, 2))) {
+    var mouth = new HeadsetWeights.Camera("mouth", 2, 2);
+    using (var weights = new HeadsetWeights(new byte[9], mouth)) {
+        var one = new Dictionary<string, byte[]> { { "mouth", new byte[4] } };
+        Console.WriteLine(float.IsNaN(weights.Predict(one).SameSeat) + " " + weights.Predict(one, one).SameSeat);
+    }
+    using (var weights = new HeadsetWeights("headset.onnx", mouth, new HeadsetWeights.Camera("left_eye", 2, 2))) {
         Console.WriteLine(Microsoft.ML.OnnxRuntime.SessionOptions.Alive);
         foreach (var names in new[] { "mouth", "", "right_eye" })
             try {
@@ -243,6 +274,7 @@ ANSWERING = """
 
 def test_a_headset_without_any_picture_has_no_answer(tmp_path: Path):
     assert answer_of("HeadsetWeights.cs", ONNXRUNTIME, ANSWERING, tmp_path) == [
+        "True 1",  # of the same seat nothing is known without neutral pictures
         "0",  # options that nobody let go
         "1 0",
         "no picture is given of mouth, left_eye",

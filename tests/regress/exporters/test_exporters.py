@@ -343,10 +343,37 @@ def test_c_header_serves_c_plus_plus(calibrated, tmp_path):
     assert subprocess.run([str(executable)], capture_output=True, text=True).stdout == "jawOpen\n"
 
 
+@pytest.mark.compiler
+@pytest.mark.parametrize("calibrated", [None, "stable"], ids=["a face alone", "players"])
+def test_two_models_go_into_one_build(calibrated, tmp_path):
+    """Unreal puts files of a module together: what one keeps to itself had the names of the other's."""
+    skip_without_tool("c")
+    model = replace(random_model(np.random.default_rng(9), calibrated=calibrated), recipe="default")
+    for name in ("one", "other"):
+        export_model(model, tmp_path, name=name, formats=["c"])
+    (tmp_path / "both.c").write_text('#include "one.c"\n#include "other.c"\n')
+    flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic"]
+    subprocess.run(["cc", *flags, "-c", "both.c", "-o", "both.o"], cwd=tmp_path, check=True)
+
+
+@pytest.mark.compiler
+@pytest.mark.parametrize("flag", ["-ffast-math", "-Ofast", "-ffinite-math-only"])
+@pytest.mark.parametrize("calibrated", [None, "stable"], ids=["a face alone", "players"])
+def test_c_refuses_flags_that_lose_nan(calibrated, flag: str, tmp_path: Path):
+    """But the paper's file, whose bytes stay."""
+    skip_without_tool("c")
+    model = replace(random_model(np.random.default_rng(9), calibrated=calibrated), recipe="default")
+    export_model(model, tmp_path, name="face", formats=["c"])
+    command = ["cc", "-std=c99", flag, "-c", tmp_path / "face.c", "-o", tmp_path / "face.o"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode != 0
+    assert "compile this file without -ffast-math" in done.stderr
+
+
 def test_c_refuses_names_that_c_cannot_say(model, tmp_path):
     with pytest.raises(InputError, match="letters, digits and underscores"):
         export_model(model, tmp_path, name="my-face", formats=["c"])
-    for taken in ("math", "Math", "alone", "calibrated"):
+    for taken in ("math", "Math"):
         with pytest.raises(InputError, match="taken by a header of C"):
             export_model(model, tmp_path, name=taken, formats=["c"])
     assert list(tmp_path.iterdir()) == []

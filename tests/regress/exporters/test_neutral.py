@@ -190,20 +190,10 @@ def test_c_says_the_stack_that_it_needs(files: Path, tmp_path: Path):
         pytest.skip("the compiler sums up no stack")
     rows = [line.split() for line in sums.read_text().splitlines()]
     used = {row[0].rpartition(":")[2]: int(row[1]) for row in rows}
-    answers = [used.pop("alone_predict"), used.pop("calibrated_predict")]
+    answers = [used.pop("face_alone_predict"), used.pop("face_calibrated_predict")]
     within = max(answers) + max(used.values()) + used["face_predict"]
     (told,) = re.findall(r"needs (\d+) kB of stack", (files / "face.h").read_text())
     assert within / 1024 <= int(told) <= within / 1024 + 2
-
-
-@pytest.mark.compiler
-@pytest.mark.parametrize("flag", ["-ffast-math", "-Ofast", "-ffinite-math-only"])
-def test_c_refuses_flags_that_lose_nan(flag: str, files: Path, tmp_path: Path):
-    skip_without_tool("c")
-    command = ["cc", "-std=c99", flag, "-c", files / "face.c", "-o", tmp_path / "face.o"]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode != 0
-    assert "compile this file without -ffast-math" in done.stderr
 
 
 JAVASCRIPT_PROGRAM = """

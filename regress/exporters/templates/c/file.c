@@ -5,7 +5,7 @@
 #include "$name.h"
 
 #include <math.h>
-
+${finite}
 $sizes
 const char *const ${name}_names[${GUARD}_WEIGHTS] = {
 $names
@@ -13,7 +13,7 @@ $names
 
 $tables$measuring/* The hyperbolic tangent to 1e-6, as a quotient of polynomials: compilers compute four side by side, where the
  * library's function is called 620 times. Beyond 7.9 it is 1 in float. NaN stays NaN. */
-static float tangent(float x)
+static float ${own}tangent(float x)
 {
     const float y = x > 7.9053111f ? 7.9053111f : x < -7.9053111f ? -7.9053111f : x;
     const float s = y * y;

@@ -9,7 +9,7 @@
         for (j = 0; j < ${OF}HIDDEN; j++)
             hidden[j] += ${of}hidden_weight[i][j] * input[i];
     for (j = 0; j < ${OF}HIDDEN; j++)
-        hidden[j] = tangent(hidden[j]);
+        hidden[j] = ${own}tangent(hidden[j]);
     for (i = 0; i < ${GUARD}_WEIGHTS; i++) {
         const int count = ${of}first_connection[i + 1] - ${of}first_connection[i];
         float sum = ${of}output_bias[i];

@@ -8,8 +8,8 @@
             turned[j] += ${of}hidden_weight[i][j] * input[i] + ${of}hidden_weight[i + 1][j] * input[i + 1]
                        + (${of}hidden_weight[i + 2][j] * input[i + 2] + ${of}hidden_weight[i + 3][j] * input[i + 3]);
     for (j = 0; j < ${OF}UNITS; j++) {
-        hidden[j] = tangent(${of}hidden_bias[j] + left[j] + turned[j]);
-        hidden[${OF}UNITS + j] = tangent(${of}hidden_bias[${OF}UNITS + j] + left[j] - turned[j]);
+        hidden[j] = ${own}tangent(${of}hidden_bias[j] + left[j] + turned[j]);
+        hidden[${OF}UNITS + j] = ${own}tangent(${of}hidden_bias[${OF}UNITS + j] + left[j] - turned[j]);
     }
     for (i = 0; i < ${GUARD}_WEIGHTS; i++) {
         const int count = (${of}first_connection[i + 1] - ${of}first_connection[i]) / 2;

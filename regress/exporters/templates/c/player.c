@@ -1,8 +1,4 @@
 
-#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "compile this file without -ffast-math, -Ofast or /fp:fast: they leave out how a missing point gives NaN"
-#endif
-
 /* Once round the face: along the jaw from the subject's right ear, and back along the brows. */
 static const unsigned char ${own}outline[] = {
 $outline
@@ -34,18 +30,18 @@ static int ${own}is_face(const float points[${GUARD}_POINTS][2])
 
 int ${name}_neutral(${name}_player *player, const float points[${GUARD}_POINTS][2])
 {
-    double feature[CALIBRATED_FEATURES], missing = 0;
+    double feature[${OWN}CALIBRATED_FEATURES], missing = 0;
     int i, known = 0;
 
     for (i = 0; i < ${GUARD}_POINTS; i++)
         known = known || points[i][0] != 0 || points[i][1] != 0;
     if (known) {
-        calibrated_measure(points, feature);
-        for (i = 0; i < CALIBRATED_FEATURES; i++)
+        ${own}calibrated_measure(points, feature);
+        for (i = 0; i < ${OWN}CALIBRATED_FEATURES; i++)
             missing += 0 * feature[i];
         if (missing != 0 || !${own}is_face(points)) /* NaN is not 0 */
             return 0;
-        for (i = 0; i < CALIBRATED_FEATURES; i++)
+        for (i = 0; i < ${OWN}CALIBRATED_FEATURES; i++)
             player->neutral[i] = feature[i];
     }
     player->known = known;
@@ -56,7 +52,7 @@ void ${name}_predict(const ${name}_player *player, const float points[${GUARD}_P
                      float weights[${GUARD}_WEIGHTS])
 {
     if (player && player->known)
-        calibrated_predict(points, player->neutral, weights);
+        ${own}calibrated_predict(points, player->neutral, weights);
     else
-        alone_predict(points, weights);
+        ${own}alone_predict(points, weights);
 }
