@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from facegen.conventions import Part
-from facegen.geometry import apply_transform, fresnel, invert_transform, pixel_rays, project
+from facegen.geometry import Camera, apply_transform, fresnel, invert_transform, look_at, pixel_rays, project
 from facegen.labels import with_glints
 from facegen.labels.glints import label_glints
 from facegen.labels.occluders import occluders
 from facegen.rigs import eye_geometry
-from facegen.scene import Mesh
+from facegen.scene import Lamp, Mesh, Scene, View
 from facegen.scene.glasses import LensMirror
 from facegen.scene.lamps import radiant_intensity
 from tests.facegen.blender.scenes import eye_scene
@@ -157,6 +157,57 @@ def test_an_led_beams_as_its_renderer_does_and_all_of_its_power():
         sent = [radiant_intensity(lamp, np.array([np.sin(a), 0.0, np.cos(a)])) for a in angle]
         total = 2.0 * np.pi * np.sum(sent * np.sin(angle)) * (angle[1] - angle[0])
         assert total == pytest.approx(lamp.power_w, rel=1e-4)
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("spread_rad", [np.pi, 2.0, 1.2])
+def test_an_led_lights_a_matte_plate_in_the_renderer_as_the_formula_says(spread_rad: float):
+    """Whose own integral says nothing of Cycles: glints would be of another brightness than what LEDs light."""
+    import bpy
+
+    from facegen.blender import open_renderer
+
+    albedo, camera_m, lamp_m = 0.5, np.array([0.0, 0.0, 0.2]), np.array([-0.01, 0.004, 0.04])
+    slant = np.array([0.2, 0.0, -1.0])
+    lamp = Lamp(
+        name="lamp",
+        position=lamp_m,
+        direction=slant / np.linalg.norm(slant),
+        diameter_m=1e-3,
+        power_w=1e-3,
+        spread_rad=spread_rad,
+    )
+    view = View(
+        name="plate",
+        camera=Camera(width=48, height=48, fx=120.0, fy=120.0, cx=23.5, cy=23.5),
+        camera_from_head=invert_transform(look_at(camera_m, np.zeros(3))),
+        lamps=("lamp",),
+    )
+    scene = Scene(meshes=(_plate(np.zeros(3), 0.06, Part.SKIN),), lamps=(lamp,), views=(view,))
+    renderer = open_renderer(threads=2)
+    matte = bpy.data.materials.new("matte")
+    matte.use_nodes = True
+    nodes = matte.node_tree.nodes
+    nodes.clear()
+    diffuse, output = nodes.new("ShaderNodeBsdfDiffuse"), nodes.new("ShaderNodeOutputMaterial")
+    diffuse.inputs["Color"].default_value = (albedo, albedo, albedo, 1.0)
+    matte.node_tree.links.new(diffuse.outputs["BSDF"], output.inputs["Surface"])
+    bpy.context.scene.view_layers[0].material_override = matte
+    radiance = renderer.glimpse(scene, "plate", samples=256, seed=1, denoise=False).radiance
+
+    rays = pixel_rays(view.camera)
+    points = rays * (camera_m[2] / rays[..., 2:])
+    points = apply_transform(invert_transform(view.camera_from_head), points.reshape(-1, 3))
+    expected = np.empty(len(points))
+    for i, point in enumerate(points):
+        from_lamp = point - lamp_m
+        far = np.linalg.norm(from_lamp)
+        expected[i] = radiant_intensity(lamp, point) * -from_lamp[2] / far**3 * albedo / np.pi
+    lit = expected > 0.1 * expected.max()
+    assert lit.mean() > 0.1
+    shown = radiance.reshape(-1)
+    assert np.abs(shown[lit] / expected[lit] - 1.0).max() < 0.1
+    assert shown[lit].sum() == pytest.approx(expected[lit].sum(), rel=0.01)
 
 
 def test_fresnel_at_normal_and_grazing_incidence():
