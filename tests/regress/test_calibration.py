@@ -23,7 +23,7 @@ from regress.runtime.stages.networks import (
     AutomaticCalibration,
     LandmarkNetworks,
 )
-from regress.runtime.stages.neutral import estimate_neutral, frame_rate
+from regress.runtime.stages.neutral import SHARES, estimate_neutral, frame_rate
 from tests.regress.conftest import QUICK, write_dataset
 from tests.regress.drawn import SHAPE_MODES_SEED, drawn_face, drawn_faces, in_pictures
 from tests.regress.exporters.readers import READERS
@@ -229,6 +229,18 @@ def test_auto_does_not_take_talk_for_a_resting_face(quick_model: Model, frames: 
     rest = estimate_neutral(quick_model, _talk(np.random.default_rng(1), frames, rests=True))
     assert rest.sure, rest.reason
     assert np.mean(rest.frames < frames // 2) > 0.7  # a mouth that talks is shut at times
+
+
+def test_auto_finds_two_seconds_of_rest_before_a_minute_of_talk(quick_model: Model):
+    """A tenth of the minute is six seconds: more than the face rests."""
+    rng = np.random.default_rng(1)
+    talk = _talk(rng, 1740, rests=False)
+    minute = np.concatenate([_talk(rng, 120, rests=True)[:60], talk])
+    found = estimate_neutral(quick_model, minute)
+    assert found.sure, found.reason
+    assert np.mean(found.frames < 60) > 0.7
+    assert not estimate_neutral(quick_model, minute, shares=SHARES[:1]).sure
+    assert not estimate_neutral(quick_model, talk).sure
 
 
 @pytest.mark.parametrize("fps", [10, 60, 120])

@@ -11,7 +11,7 @@ from regress.runtime.model import Model
 from regress.runtime.sample import Sample
 from regress.runtime.stages.confidence import confidence
 from regress.runtime.stages.frame_clock import FrameClock
-from regress.runtime.stages.neutral import estimate_neutral, frame_rate
+from regress.runtime.stages.neutral import SHARES, estimate_neutral, frame_rate
 from regress.runtime.stages.stage import BatchStage, Stage
 
 SURE_FROM_S = 10.0
@@ -142,7 +142,8 @@ class AutomaticCalibration(Stage):
 
     def _estimate(self, label: str) -> None:
         times, points = (np.array(each) for each in zip(*self._recent, strict=True))
-        estimate = estimate_neutral(self._plain, points, frame_rate(times))
+        # it looks again soon, and no frame should wait for several estimates
+        estimate = estimate_neutral(self._plain, points, frame_rate(times), shares=SHARES[:1])
         self._sure = self._sure + 1 if estimate.sure else 0
         if self._sure >= SURE_TIMES or (self.neutral is not None and estimate.sure):
             first, self.neutral = self.neutral is None, points[estimate.frames]

@@ -1,5 +1,7 @@
 """Estimates a person's neutral face from a recording in which nobody said which frames are neutral."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from regress.errors import InputError
@@ -12,8 +14,12 @@ from regress.targets import VISIBLE_SHAPES
 FEWEST_FRAMES = 20
 """Usable frames below which nothing is certain."""
 
-_SHARE, _FEWEST_CALM = 0.1, 5
-"""Frames taken for calm: the tenth that shows least, and no fewer than five, as one of two may be a blink."""
+SHARES, _FEWEST_CALM = (0.1, 0.05, 0.02), 5
+"""Shares of the frames taken for calm, those that show least: the first with which the face is surely at rest, as a
+minute of talking begins with two seconds of it; and no fewer than five frames, as one of two may be a blink."""
+
+_FEWEST_OF_LESS = 30
+"""Calm frames that a smaller share must have, a second of most cameras: fewer are found between any two syllables."""
 
 _ROUNDS = 3
 """How often the calm frames are asked for anew; more change nothing."""
@@ -46,14 +52,17 @@ def frame_rate(time_s: np.ndarray | None) -> float:
     return float(1 / np.median(steps)) if len(steps) else USUAL_FPS
 
 
-def estimate_neutral(model: Model, points: np.ndarray, fps: float = USUAL_FPS) -> CalmFrames:
+def estimate_neutral(
+    model: Model, points: np.ndarray, fps: float = USUAL_FPS, *, shares: Sequence[float] = SHARES
+) -> CalmFrames:
     """Find the calm frames of a recording of one person.
 
     The calibrated networks compare all frames with the median face, then with the median of the calmest tenth, and
     again. They cancel what the person is like; which of two faces is the resting one the networks that see a frame
-    alone say beside them. The calm frames are neutral if they agree, early ones and late ones, and if the face is
-    still about them: someone who talks all the time is told of as not at rest. Someone who smiles throughout is taken
-    for neutral: a frame named by a person is better than an estimate.
+    alone say beside them. Where that tenth is not at rest, less of a long recording is tried. The calm frames are
+    neutral if they agree, early ones and late ones, and if the face is still about them: someone who talks all the time
+    is told of as not at rest. Someone who smiles throughout is taken for neutral: a frame named by a person is better
+    than an estimate.
 
     Parameters
     ----------
@@ -63,6 +72,8 @@ def estimate_neutral(model: Model, points: np.ndarray, fps: float = USUAL_FPS) -
         In the order of time; frames with NaN are left out.
     fps
         Frames a second, by which it is told how long a face was still.
+    shares
+        Of the frames, those that may be taken for calm, the largest first.
 
     Raises
     ------
@@ -75,14 +86,22 @@ def estimate_neutral(model: Model, points: np.ndarray, fps: float = USUAL_FPS) -
     if not len(usable):
         raise InputError("no frame is usable: each has missing landmarks")
     faces = points[usable]
-    count = min(len(faces), max(_FEWEST_CALM, round(_SHARE * len(faces))))
     alone = _standard(model.predict(faces).sum(axis=1))
-    calm = np.arange(len(faces))
-    for _ in range(_ROUNDS):
-        compared = model.calibrate(faces[calm]).predict(faces).sum(axis=1)
-        calm = np.sort(np.argsort(_standard(compared) + alone, kind="stable")[:count])
-    sure, reason = _judged(model, faces, calm, fps)
-    return CalmFrames(frames=usable[calm], sure=sure, reason=reason)
+    first = None
+    for share in shares:
+        count = min(len(faces), max(_FEWEST_CALM, round(share * len(faces))))
+        if first is not None and count < _FEWEST_OF_LESS:
+            break
+        calm = np.arange(len(faces))
+        for _ in range(_ROUNDS):
+            compared = model.calibrate(faces[calm]).predict(faces).sum(axis=1)
+            calm = np.sort(np.argsort(_standard(compared) + alone, kind="stable")[:count])
+        sure, reason = _judged(model, faces, calm, fps)
+        found = CalmFrames(frames=usable[calm], sure=sure, reason=reason)
+        if sure:
+            return found
+        first = first or found
+    return first
 
 
 def _judged(model: Model, faces: np.ndarray, calm: np.ndarray, fps: float) -> tuple[bool, str]:
