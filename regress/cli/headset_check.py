@@ -43,18 +43,14 @@ def check(
 
     Example: regress headset check --left-eye take/left_eye --right-eye take/right_eye --out placement.toml
     """
-    import numpy as np
-
     from facegen.console import say
     from facegen.files import refuse_ending, write_whole
+    from regress.cli.headset_checked import checked_footage, recorded_aspect
     from regress.cli.headset_input import camera_paths
-    from regress.runtime.headset.fitness.fitness import checked_rows, judge
+    from regress.runtime.headset.fitness.fitness import judge
     from regress.runtime.headset.fitness.sheet import fitness_sheet
     from regress.runtime.headset.network.predictor import load_headset_predictor
-    from regress.runtime.headset.pictures.faults import fault_sentences
     from regress.runtime.headset.placing.placement_file import Placement, write_placement
-    from regress.runtime.headset.recordings.recorded_paths import recorded_size
-    from regress.runtime.headset.recordings.recording import read_recording
     from regress.runtime.ready_made import HEADSET
 
     if sheet is not None:
@@ -72,17 +68,7 @@ def check(
             f"give the cameras' paths ({', '.join(predictor.sizes)}), as --left-eye take/left_eye"
         )
     _refuse_recorded(paths.values(), {"--sheet": sheet, "--out": out})
-    footage = {}
-    for name, path in paths.items():
-        width, height = recorded_size(path)
-        recording = read_recording(
-            path, name, width=width, height=height, bits=bits, choose=checked_rows, as_recorded=True
-        )
-        noted = [recording.note] if recording.film and recording.note else []
-        for note in (*noted, *fault_sentences(name, recording.numbers, recording.faults)):
-            say(note)
-        sound = np.array([fault is None for fault in recording.faults])
-        footage[name] = recording.pictures if sound.all() else recording.pictures[sound]
+    footage = checked_footage(paths, bits=bits)
     judged = judge(predictor, footage)
     for one in judged:
         lines = [finding.sentence for finding in one.findings]
@@ -110,8 +96,9 @@ def check(
         )
     seen = [one for one in judged if one.looks is not None]
     if out is not None:
-        aspects = {name: pictures.shape[2] / pictures.shape[1] for name, pictures in footage.items()}
-        cameras = {one.camera: replace(one.placement, aspect=aspects[one.camera]) for one in seen}
+        cameras = {
+            one.camera: replace(one.placement, aspect=recorded_aspect(footage[one.camera])) for one in seen
+        }
         found_with = predictor.model
         write_placement(
             out,

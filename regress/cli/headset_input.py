@@ -137,6 +137,29 @@ def check_stills(**asked: bool) -> None:
             raise InputError(f"--{name.replace('_', '-')} needs a take, and this is a dataset: {why}")
 
 
+def placement_of(
+    predictor: "HeadsetPredictor", named: Path | None, paths: Mapping[str, Path], *, bits: int | None
+) -> "dict[str, CameraPlacement]":
+    """What ``--placement`` names, or what is found in the cameras' recordings by ``auto``.
+
+    Raises
+    ------
+    InputError
+        Where the file is none of this model, or a dataset's pictures are to be placed.
+    """
+    from regress.runtime.headset.placing.placement_file import read_placement
+
+    if named is None:
+        return {}
+    if named != Path("auto"):
+        return read_placement(named, predictor.model)
+    if not paths:
+        raise InputError("--placement auto looks for eyes in a take's cameras; a dataset needs no placement")
+    from regress.cli.headset_checked import placed_by_search
+
+    return placed_by_search(predictor, paths, bits=bits)
+
+
 def read_footage(
     predictor: "HeadsetPredictor",
     dataset: Path | None,

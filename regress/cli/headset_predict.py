@@ -53,7 +53,9 @@ def predict(
         Path | None,
         typer.Option(
             "--placement",
-            help="TOML of `regress headset check`: what of each camera's pictures counts, at which levels.",
+            metavar="FILE|auto",
+            help="TOML of `regress headset check`: what of each camera's pictures counts, at which levels; auto looks "
+            "for it in the take.",
         ),
     ] = None,
     headset: HeadsetOption = None,
@@ -157,6 +159,7 @@ def predict(
         camera_paths,
         check_stills,
         model_and_dataset,
+        placement_of,
         read_footage,
         read_neutrals,
         targets_of,
@@ -182,7 +185,6 @@ def predict(
     from regress.runtime.headset.network.predictor import load_headset_predictor
     from regress.runtime.headset.pictures.halves import whole_of
     from regress.runtime.headset.placing.levels import levelled, levels_of_cameras
-    from regress.runtime.headset.placing.placement_file import read_placement
     from regress.runtime.stages.frame_clock import USUAL_FPS
     from regress.runtime.writers.csv_table import confidence_csv, weights_csv
 
@@ -232,7 +234,7 @@ def predict(
     own = read_own(predictor, person, still=dataset is not None)
     if video is not None:
         check_film_name(video)
-    placed = {} if placement is None else read_placement(placement, predictor.model)
+    placed = placement_of(predictor, placement, paths, bits=bits)
     tell_of_views(own, placed, predictor, person)
     footage = read_footage(
         predictor, dataset, paths, from_start=from_start, fps=fps, bits=bits, placement=placed

@@ -246,7 +246,12 @@ def test_folders_are_read_by_number_scaled_and_with_their_faults(tmp_path: Path)
     assert found.scaled_from.tolist() == 5 * large + 4 * [[WIDTH, HEIGHT]] + 2 * large
     assert found.pictures.shape == (11, HEIGHT, WIDTH)
     footage = line_up({"left_eye": found}, SIZES)
-    assert "left_eye: pictures of 48 x 36 are scaled to 16 x 12" in footage.notes
+    told = [
+        note
+        for note in footage.notes
+        if note.startswith("left_eye: pictures of 48 x 36 are scaled to 16 x 12")
+    ]
+    assert ["check" in note for note in told] == [True], "square pictures too may show the eye elsewhere"
     assert "left_eye: 1 of 11 frames have a picture of another shape: 7" in footage.notes
 
 
@@ -261,7 +266,9 @@ def test_each_picture_of_a_folder_of_several_sizes_keeps_its_own(tmp_path: Path)
     assert {name: one.tolist() for name, one in footage.scaled_from.items()} == {
         "left_eye": expected.tolist()
     }
-    assert "left_eye: pictures of 32 x 24, 48 x 36 are scaled to 16 x 12" in footage.notes
+    assert any(
+        "left_eye: pictures of 32 x 24, 48 x 36 are scaled to 16 x 12" in note for note in footage.notes
+    )
 
 
 def test_files_without_numbers_of_their_own_are_counted(tmp_path: Path):

@@ -98,3 +98,33 @@ def test_a_letterboxed_eye_is_found_as_without_its_bars(run, tmp_path: Path):
     np.testing.assert_array_equal(placed.view(bars[0], width=96, height=96), pictures[0])
     # written with four digits
     assert replace(placed, cut=NO_CUT, aspect=None) == CameraPlacement()
+
+
+@pytest.mark.slow
+def test_predict_places_by_itself_what_check_is_sure_of(run, tmp_path: Path):
+    """And leaves an eye in a mirror, which may be the other one, to a person."""
+    pictures = recorded("left_eye", 4)
+    wide = {
+        "sure": np.pad(pictures, ((0, 0), (0, 24), (0, 40)), mode="edge"),
+        "mirrored": np.pad(pictures[:, :, ::-1], ((0, 0), (0, 24), (0, 40)), mode="edge"),
+    }
+    for what, seen in wide.items():
+        options, out = write_take(tmp_path / what, {"left_eye": seen}), tmp_path / f"{what}.toml"
+        assert run("headset", "check", "headset-tracking3", *options, "--out", out)[0] == 0
+        named = out if what == "sure" else None
+        words = ["headset", "predict", "headset-tracking3", *options]
+        code, table, said = run(*words, "--placement", "auto")
+        assert (code, "not sure" in said) == (0, what != "sure"), said
+        plain = run(*words, *(["--placement", named] if named else []))[1]
+        values, wanted = (
+            np.array([row.split(",")[2:] for row in text.splitlines()[1:]], dtype=float)
+            for text in (table, plain)
+        )
+        np.testing.assert_allclose(values, wanted, atol=0.2 if named else 0)  # a file has four digits
+
+
+@pytest.mark.slow
+def test_a_dataset_needs_no_placement(run, tmp_path: Path):
+    (tmp_path / "renders").mkdir()
+    code, _, said = run("headset", "predict", "headset-tracking3", tmp_path, "--placement", "auto")
+    assert (code, "a dataset needs no placement" in said) == (2, True), said

@@ -45,6 +45,8 @@ class HeadsetNetworks(Stage):
         Whether frames are of many people, of whom nothing can be learnt from one to the next.
     person
         Whose own ends count, with a reader.
+    take
+        Whether frames are of a take, all of which come before an answer counts: `led_take` says whose gaze leads.
     """
 
     def __init__(
@@ -57,7 +59,9 @@ class HeadsetNetworks(Stage):
         reader: EyeReader | None = None,
         still: bool = False,
         person: Person | None = None,
+        take: bool = False,
     ) -> None:
+        self._seen: list[tuple[float, dict[str, np.ndarray]]] | None = [] if take else None
         self._predictor, self._clock, self._keep = predictor, FrameClock(fps), keep_neutral
         self._levels = levels
         self._reader = reader
@@ -114,7 +118,26 @@ class HeadsetNetworks(Stage):
         )
         if self._reader is not None:
             return self._with_eyes(answer, seen.pictures, seconds)
-        return answer if self._leader is None else self._led(answer, seconds)
+        if self._leader is None:
+            return answer
+        if self._seen is not None:
+            self._seen.append(
+                (seconds, {name: self.traced[name] for name in self._leader.sides if name in self.traced})
+            )
+            return answer
+        return self._led(answer, seconds, self.traced)
+
+    def led_take(self, samples: Sequence[Sample]) -> list[Sample]:
+        """Answers of all frames of a take, with the gaze of traced points as far as they lead over all of it."""
+        if self._leader is None or not self._seen:
+            return list(samples)
+        shown = iter(self._seen)
+        frames = [(sample, next(shown) if sample.pictures else None) for sample in samples]
+        for sample, seen in frames:
+            if seen is not None:
+                self._leader.led(*seen, sample.gaze)
+        self._seen = []
+        return [sample if seen is None else self._led(sample, *seen) for sample, seen in frames]
 
     def compared(self, pictures: Mapping[str, np.ndarray]) -> np.ndarray:
         """Weights (n, 52) of frames of before, (n, h, w) uint8 by camera, compared with the neutral pictures in use.
@@ -135,9 +158,9 @@ class HeadsetNetworks(Stage):
         weights[LOOKS] = look_weights(gaze)
         return replace(sample, weights=weights, gaze=gaze, eyes=eyes)
 
-    def _led(self, sample: Sample, seconds: float) -> Sample:
+    def _led(self, sample: Sample, seconds: float, traced: Mapping[str, np.ndarray]) -> Sample:
         """The sample with the gaze of traced points, as far as they lead."""
-        gaze, share = self._leader.led(seconds, self.traced, sample.gaze)
+        gaze, share = self._leader.led(seconds, traced, sample.gaze)
         if not share:
             return sample
         weights = sample.weights.copy()

@@ -112,9 +112,10 @@ def predict_footage(
     still: bool = False,
     say: Callable[[str], None] = lambda message: None,
 ) -> tuple[Prediction, tuple[str, ...]]:
-    """Weights, gaze and confidence of a recording: each frame as `HeadsetStream` steps it, but for levels.
+    """Weights, gaze and confidence of a recording: each frame as `HeadsetStream` steps it, but for two things.
 
-    Pictures are taken as they are: `regress.runtime.headset.placing.levels.levelled` levels a take as a whole.
+    Pictures are taken as they are: `regress.runtime.headset.placing.levels.levelled` levels a take as a whole. Whether
+    the network or traced points lead in the gaze is learnt of all frames before it counts in the first.
 
     Parameters
     ----------
@@ -145,16 +146,18 @@ def predict_footage(
         reader=None if person is None else EyeReader(predictor, person),
         still=still,
         person=person,
+        take=not still,
     )
     after = _after_networks(predictor, output, say, temporal=temporal)
     starts = {neutral.row: neutral.pictures for neutral in neutrals[1:]}
     if neutrals:
         starts[0] = neutrals[0].pictures
-    samples = []
+    answers = []
     for row, sample in enumerate(footage.samples()):
         if row in starts:
             networks.use_neutral(starts[row])
-        samples += after.feed(networks.step(sample))
+        answers.append(networks.step(sample))
+    samples = [ready for answer in networks.led_take(answers) for ready in after.feed(answer)]
     samples += after.finish()
     prediction = Prediction(samples=samples, names=output.names, source=footage.source)
     return prediction, tuple(networks.reseated)

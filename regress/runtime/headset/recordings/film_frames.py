@@ -14,9 +14,8 @@ from facegen.formats.picture_size import MOST_PIXELS
 from regress.errors import InputError
 from regress.runtime.even_rows import even_rows
 
-
 _FEWER = 0.02
-"""Share of a film's frames, and two at least, that may be lacking untold: some containers only estimate their number."""
+"""Share of a film's frames, and two at least, that may be lacking untold: some containers estimate their number."""
 
 _QUIET = "-8"
 """FFmpeg's AV_LOG_QUIET: of a damaged film it writes a line a frame, and OpenCV asks once, at the first opening."""

@@ -126,7 +126,7 @@ def line_up(
     if not recordings:
         raise InputError(f"no camera is given; the model has {', '.join(sizes)}")
     notes = [recording.note for recording in recordings.values() if recording.note]
-    notes += [note for recording in recordings.values() for note in _scaling_note(recording, sizes)]
+    notes += [note for each in recordings.values() for note in _scaling_note(each, sizes, still=still)]
     matched = match(recordings, from_start=from_start, still=still, fps=fps)
     notes += matched.notes
     numbers, count = matched.numbers, len(matched.numbers)
@@ -192,7 +192,7 @@ def _mark_frozen(pictures: dict[str, np.ndarray], faults: Mapping[str, np.ndarra
             pictures[name] = np.where(frozen[:, None, None], np.uint8(0), stack)
 
 
-def _scaling_note(recording: Recording, sizes: Mapping[str, tuple[int, int]]) -> list[str]:
+def _scaling_note(recording: Recording, sizes: Mapping[str, tuple[int, int]], *, still: bool) -> list[str]:
     if recording.scaled_from is None or (recording.placement is not None and not recording.whole):
         return []
     wanted, *found = (
@@ -213,4 +213,6 @@ def _scaling_note(recording: Recording, sizes: Mapping[str, tuple[int, int]]) ->
             f"{recording.camera}: pictures of {', '.join(found)} have another shape than the network's {wanted}; all "
             f"of each is seen, and `regress headset check` finds a better --placement"
         ]
-    return [f"{recording.camera}: pictures of {', '.join(found)} are scaled to {wanted}"]
+    # a dataset's renders are of the network's headset, and a take's pictures of any
+    hint = "" if still else "; `regress headset check` says whether they lie in them as in training"
+    return [f"{recording.camera}: pictures of {', '.join(found)} are scaled to {wanted}{hint}"]
