@@ -4,6 +4,8 @@ Both are made here rather than by Blender, whose files carry times: the same arr
 bytes.
 """
 
+import errno
+import os
 import struct
 from pathlib import Path
 
@@ -30,6 +32,8 @@ MOST_PIXELS = 4096 * 16384
 
 MOST_BYTES = 2 * MOST_PIXELS
 """Of a PNG file: noise does not become smaller, nor twice as large."""
+
+_NO_ROOM = tuple(getattr(errno, name) for name in ("ENOSPC", "EDQUOT") if hasattr(errno, name))
 
 _PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -75,7 +79,13 @@ def _check_size(width: int, height: int, where: str) -> None:
 
 
 def write_exr(layers: Layers, path: Path) -> None:
-    """Write an EXR file of a view's layers, parts and channels as in `EXR_PARTS`, without any date."""
+    """Write an EXR file of a view's layers, parts and channels as in `EXR_PARTS`, without any date.
+
+    Raises
+    ------
+    OSError
+        If there is no room for it; the library has an error of its own for that, which does not blame the place.
+    """
     parts = []
     for name, channels in EXR_PARTS.items():
         image = getattr(layers, name)
@@ -86,7 +96,13 @@ def write_exr(layers: Layers, path: Path) -> None:
         }
         header = {"name": name, "type": OpenEXR.scanlineimage, "compression": OpenEXR.ZIP_COMPRESSION}
         parts.append(OpenEXR.Part(header, arrays))
-    OpenEXR.File(parts).write(str(path))
+    try:
+        OpenEXR.File(parts).write(str(path))
+    except RuntimeError as error:
+        code = next((code for code in _NO_ROOM if os.strerror(code) in str(error)), None)
+        if code is None:
+            raise
+        raise OSError(code, os.strerror(code), str(path)) from error
 
 
 def _size(window: tuple[np.ndarray, np.ndarray]) -> tuple[int, int]:

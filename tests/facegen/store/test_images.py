@@ -1,9 +1,11 @@
 """Picture files: same arrays, same bytes; what is written is read back; other programs can read them."""
 
 import dataclasses
+import errno
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import OpenEXR
@@ -57,6 +59,14 @@ def test_headers_tell_no_time_and_no_place(layers, tmp_path):
     assert not {
         key for key in keys if "date" in key.lower() or "time" in key.lower() or "file" in key.lower()
     }
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="the system has no full device")
+def test_a_full_disk_is_told_by_the_systems_own_error(layers):
+    """By the time anybody asks the disk the half file is gone, and there is room again."""
+    with pytest.raises(OSError, match="No space left") as refusal:
+        write_exr(layers, Path("/dev/full"))
+    assert refusal.value.errno == errno.ENOSPC
 
 
 def test_opencv_reads_the_radiance(layers, tmp_path):
