@@ -1,6 +1,7 @@
 """Every kind of source by what a person writes; the tests run over the table."""
 
 import io
+import re
 import subprocess
 import sys
 import textwrap
@@ -217,6 +218,21 @@ def test_servers_of_other_makes_are_read(make: str):
         source.close()
     assert all(picture.pixels.shape == (48, 64, 3) for picture in pictures)
     assert all(not np.array_equal(one.pixels, other.pixels) for one, other in pairwise(pictures))
+
+
+def test_cameras_that_differ_behind_a_question_mark_have_profiles_of_their_own_and_tell_no_password():
+    keys = set()
+    with mjpeg_server(MjpegServer(picture=noise)) as server:
+        address = f"http://127.0.0.1:{server.port}/stream"
+        for query in ("", "?channel=1&password=secret", "?channel=2&password=secret"):
+            with open_capture({"camera": f"{address}{query}"}) as capture:
+                assert capture.titles == {"camera": address}
+                keys.add(capture.keys["camera"])
+            with open_capture({"eye": f"{address}{query}#left"}) as capture:
+                keys.add(capture.keys["eye"])
+    assert len(keys) == 6
+    assert not re.search("secret|channel", " ".join(keys))
+    assert {address, f"{address}#left"} < keys  # as they were called before
 
 
 def test_a_server_that_stops_is_told_and_found_again():

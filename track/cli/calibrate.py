@@ -109,4 +109,4 @@ def calibrate(
             raise InputError(step.text)
         if not session.adjusting.has_kept:
             raise InputError("nothing was kept, as the neutral face is another one; calibrate neutral first")
-        say(f"kept in {known_path(profile, capture.titles)}")
+        say(f"kept in {known_path(profile, capture.keys)}")

@@ -118,7 +118,7 @@ def open_session(
     closing.callback(pipeline.close)
     capture = open_cameras(wishes, texts, say)
     closing.callback(capture.close)
-    profile, stored, path = open_profile(wishes, pipeline, capture.titles, say)
+    profile, stored, path = open_profile(wishes, pipeline, capture.keys, say)
     if must_keep:
         keep = partial(write_profile, path)
     else:

@@ -1,5 +1,6 @@
 """Pictures from an address: MJPEG over HTTP, as self-built trackers and ESP32 boards send it, and RTSP."""
 
+import hashlib
 import ipaddress
 import os
 import re
@@ -38,6 +39,9 @@ class AddressSource(Source):
         if self.title.partition("://")[0].lower() not in SCHEMES or not _has_host(address):
             raise CameraError(f"{self.title} is no camera's address; these begin with {', '.join(SCHEMES)}")
         _go_past_proxies(urlsplit(address).hostname)
+        _, sign, query = address.partition("?")
+        if sign:  # it may hold a password, and cameras of one host may differ by nothing else
+            self.mark = hashlib.sha256(query.encode(errors="backslashreplace")).hexdigest()[:6]
         self._capture = opened(address, cv2.CAP_FFMPEG)
         if self._capture is None:
             raise CameraError(

@@ -62,7 +62,7 @@ class Camera:
         self._opener, self._news, self._pauses_s = opener, news, pauses_s
         self._source = opener()
         self.title, self.live, self.endless = self._source.title, self._source.live, self._source.endless
-        self.length_s = self._source.length_s
+        self.mark, self.length_s = self._source.mark, self._source.length_s
         self.waiting = Backlog(self._source.step_s)
         self.fault: Enum | None = None
         self.ended = False

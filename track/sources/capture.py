@@ -60,6 +60,8 @@ class Capture:
     ----------
     titles
         What a person calls each camera, by its name.
+    keys
+        What each camera's profile is called after, by its name.
     live
         Whether pictures come by themselves.
     endless
@@ -88,6 +90,10 @@ class Capture:
         self.titles = {
             name: self._cameras[whole].title + (f"#{half}" if half else "")
             for name, (whole, half) in self._halves.items()
+        }
+        self.keys = {
+            name: f"{self.titles[name]} {mark}" if (mark := self._cameras[whole].mark) else self.titles[name]
+            for name, (whole, _) in self._halves.items()
         }
         self.live = any(camera.live for camera in self._cameras.values())
         lengths_s = [camera.length_s for camera in self._cameras.values()]

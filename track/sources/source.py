@@ -38,6 +38,8 @@ class Source:
     ----------
     title
         What a person calls it: ``"camera 0"``, a file's name, an address without its password.
+    mark
+        What tells it apart from another camera of this title, and says nothing; empty where the title does.
     live
         Whether pictures come by themselves: a live source loses what nobody read, a kept one waits.
     endless
@@ -51,6 +53,7 @@ class Source:
     """
 
     title: str
+    mark: str = ""
     live: bool = True
     endless: bool = True
     length_s: float | None = None

@@ -146,7 +146,7 @@ def test_another_neutral_face_forgets_what_was_known():
 class Cable:
     """A camera, or a film, that nobody reads."""
 
-    titles: ClassVar = {"camera": "camera 0"}
+    keys: ClassVar = {"camera": "camera 0"}
 
     def __init__(self, *, endless: bool) -> None:
         self.endless = endless
