@@ -44,6 +44,23 @@ def test_train_says_whom_of_the_test_people_it_knows(
     assert (told in said) == bool(known)
 
 
+def test_evaluate_displaces_points_as_a_detector_does(run, quick_model_folder: Path, dataset_folder: Path):
+    """Offsets that pass as well, which the record's guess leaves out."""
+
+    def visible(*options: str) -> float:
+        code, out, said = run("evaluate", quick_model_folder, dataset_folder, "--json", *options)
+        assert code == 0, said
+        return json.loads(out)["summary"]["mean_r2_visible"]
+
+    exact, displaced = visible(), visible("--detector", "mediapipe")
+    assert displaced < exact - 0.05
+    assert displaced == visible("--detector", "mediapipe"), "the same displacements for every model"
+    assert visible("--detector", "mediapipe", "--calibrated") != displaced
+    code, _, said = run("evaluate", quick_model_folder, dataset_folder, "--detector", "dlib")
+    assert code == 2
+    assert "--detector is 'dlib', but must be one of" in said
+
+
 def test_train_writes_a_model_that_evaluate_and_predict_read(
     run, dataset_folder: Path, tmp_path: Path, points_file: Path, monkeypatch: pytest.MonkeyPatch
 ):

@@ -11,10 +11,10 @@ from regress.learning.training.baseline import fit_baseline
 from regress.learning.training.dataset import KeypointDataset
 from regress.learning.training.fitting import Fit
 from regress.learning.training.noise import DetectorNoise
-from regress.learning.training.preparation import OUTPUT_COLUMNS, Faces, draw_detected, faces_of
+from regress.learning.training.preparation import OUTPUT_COLUMNS, faces_of
 from regress.learning.training.recipes import Recipe
 from regress.learning.training.regression import regress_split
-from regress.learning.training.scores import evaluate_model, mean_r2, score, score_faces
+from regress.learning.training.scores import detected, evaluate_model, mean_r2, score, score_faces
 from regress.runtime.features import Features
 from regress.runtime.model import Model, Scores, TrainingRecord
 from regress.runtime.model.record import DatasetRecord, ErrorCurves, MeanScores, NetworkTraining
@@ -34,9 +34,6 @@ _FLOORS = {
 }
 """What each ridge regression of a record was trained on."""
 
-_NOISE_SEED = 68
-"""Of the displaced test faces: every model is judged on the same ones."""
-
 
 def training_record(
     model: Model,
@@ -48,14 +45,14 @@ def training_record(
     training_rows: int,
 ) -> TrainingRecord:
     """Evaluate a model and its baselines on the test split, and record the training."""
-    exact, detected = _baselines(dataset, model.features, recipe, calibrated=False, seed=seed)
+    exact, displaced = _baselines(dataset, model.features, recipe, calibrated=False, seed=seed)
     scores = {"network": evaluate_model(model, dataset), **exact}
-    as_detected = {"network": _scores_as_detected(model, dataset, calibrated=False), **detected}
+    as_detected = {"network": _scores_as_detected(model, dataset, calibrated=False), **displaced}
     if model.calibrated is not None:
-        exact, detected = _baselines(dataset, model.calibrated.features, recipe, calibrated=True, seed=seed)
+        exact, displaced = _baselines(dataset, model.calibrated.features, recipe, calibrated=True, seed=seed)
         scores["calibrated"] = evaluate_model(model, dataset, calibrated=True)
         as_detected["calibrated"] = _scores_as_detected(model, dataset, calibrated=True)
-        for known, baselines in ((scores, exact), (as_detected, detected)):
+        for known, baselines in ((scores, exact), (as_detected, displaced)):
             known |= {f"calibrated_{name}": shapes for name, shapes in baselines.items() if name != "mean"}
     networks = {name: _network_records(fit) for name, fit in fits.items()}
     return TrainingRecord(
@@ -99,11 +96,7 @@ def _summary(shapes: dict[str, Scores]) -> MeanScores:
 
 
 def _scores_as_detected(model: Model, dataset: KeypointDataset, *, calibrated: bool) -> dict[str, Scores]:
-    return score_faces(model, _detected(faces_of(dataset, "test", calibrated=calibrated)))
-
-
-def _detected(faces: Faces) -> Faces:
-    return draw_detected(faces, DETECTOR, np.random.default_rng(_NOISE_SEED))
+    return score_faces(model, detected(faces_of(dataset, "test", calibrated=calibrated), DETECTOR))
 
 
 def _baselines(
@@ -126,11 +119,11 @@ def _baselines(
     def scored(weights: np.ndarray) -> dict[str, Scores]:
         return dict(zip(OUTPUTS, score(weights, true), strict=True))
 
-    exact, detected = (
+    exact, displaced = (
         {name: scored(one.predict(given.features(features))) for name, one in ridges.items()}
-        for given in (faces, _detected(faces))
+        for given in (faces, detected(faces, DETECTOR))
     )
-    return exact | {"mean": scored(np.broadcast_to(ridge.normalisation.target_mean, true.shape))}, detected
+    return exact | {"mean": scored(np.broadcast_to(ridge.normalisation.target_mean, true.shape))}, displaced
 
 
 def _mean_over_networks(scores: dict[str, Scores]) -> float | None:
