@@ -12,7 +12,7 @@ from regress.runtime.headset.network.folder import read_headset_model
 from regress.runtime.headset.network.model import HeadsetModel
 from regress.runtime.headset.network.predictor import is_headset_model
 from regress.runtime.model import HEADSET, KEYPOINTS, load_model
-from regress.runtime.model.record import TrainingRecord
+from regress.runtime.model.record import MeanScores, TrainingRecord
 
 _CONDITIONS = {
     "uncalibrated": "no neutral picture",
@@ -108,7 +108,7 @@ def _texts(folder: Path) -> dict[str, str]:
     sets = {"network", "calibrated"}
     if record is None or not (sets <= record.as_detected.keys() and sets <= record.summary.keys()):
         raise ModelError(
-            f"{folder} was not judged as a detector puts landmarks: its model.json has no such scores"
+            f"{folder} was not judged as a detector is guessed to put landmarks: its model.json has no such scores"
         )
     lacking = {"train", "test"} - record.dataset.samples.keys()
     if lacking:
@@ -125,10 +125,18 @@ def _keypoint_texts(record: TrainingRecord) -> dict[str, str]:
     }
     texts = {f"{name}_visible": _figure(one.mean_r2_visible) for name, one in means.items()}
     texts |= {f"{name}_networks": _figure(one.mean_r2_networks) for name, one in means.items()}
+    texts |= {
+        f"{kind}_{prefix}ridge": _visible(scores, *(f"{prefix}{name}" for name in names))
+        for kind, scores, names in (
+            ("detected", record.as_detected, ("ridge_same_rows", "ridge")),
+            ("exact", record.summary, ("ridge",)),
+        )
+        for prefix in ("", "calibrated_")
+    }
     dataset = record.dataset
     return texts | {
         "sees": "68 landmarks",
-        "figures": f"R2 {texts['detected_visible']} as a detector puts landmarks, "
+        "figures": f"R2 {texts['detected_visible']} as a detector is guessed to put landmarks, "
         f"{texts['detected_calibrated_visible']} with a neutral frame; exact landmarks {texts['exact_visible']}",
         "licence": record.licence,
         "test_samples": f"{dataset.samples['test']:,}",
@@ -139,6 +147,12 @@ def _keypoint_texts(record: TrainingRecord) -> dict[str, str]:
         "data_licence": str(dataset.licence),
         "heads": heads_in_words(dataset.rig),
     }
+
+
+def _visible(scores: dict[str, MeanScores], *methods: str) -> str:
+    """Mean R2 of the visible shapes by the first method that was measured; a dash where none was."""
+    found = next((scores[method] for method in methods if method in scores), None)
+    return "\N{EN DASH}" if found is None else _figure(found.mean_r2_visible)
 
 
 def heads_in_words(rigs: Any) -> str:

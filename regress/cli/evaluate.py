@@ -19,6 +19,12 @@ def evaluate(
     calibrated: Annotated[
         bool, typer.Option("--calibrated", help="Give the networks each person's neutral frame.")
     ] = False,
+    detector: Annotated[
+        str | None,
+        typer.Option(
+            "--detector", help="Displace points as this detector does, frame by frame too: mediapipe."
+        ),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Unrounded figures for programs.")] = False,
 ) -> None:
     """Print R2, mean absolute error and correlation of every shape on one split.
@@ -26,12 +32,14 @@ def evaluate(
     Example: regress evaluate models/default datasets/out/default
     """
     from regress.learning.training import evaluate_model, read_dataset
+    from regress.learning.training.detectors import detector_noise
     from regress.learning.training.scores import mean_r2
     from regress.runtime.model import load_model
     from regress.targets import OUTPUTS, VISIBLE_SHAPES, observability
 
+    noise = None if detector is None else detector_noise(detector)
     loaded, keypoints = load_model(model), read_dataset(dataset, splits=(split,))
-    scores = evaluate_model(loaded, keypoints, split=split, calibrated=calibrated)
+    scores = evaluate_model(loaded, keypoints, split=split, calibrated=calibrated, noise=noise)
     visible = tuple(name for name in VISIBLE_SHAPES if name in scores)
     summary = {
         "mean_r2": mean_r2(scores, tuple(scores)),
@@ -39,7 +47,13 @@ def evaluate(
     }
     if as_json:
         shapes = {name: dataclasses.asdict(figures) for name, figures in scores.items()}
-        document = {"split": split, "calibrated": calibrated, "summary": summary, "scores": shapes}
+        document = {
+            "split": split,
+            "calibrated": calibrated,
+            "detector": detector,
+            "summary": summary,
+            "scores": shapes,
+        }
         typer.echo(json.dumps(document, allow_nan=False))
         return
     typer.echo(f"{'shape':<20} {'R2':>7} {'MAE':>7} {'r':>7}")

@@ -48,6 +48,10 @@ def train(
         f"trained on {counted(model.record.training_rows, 'row')} in {time.monotonic() - began:.0f} s; model in {out}"
     )
     say(f"the heads came from {heads_in_words(model.record.dataset.rig)}")
+    if in_training := model.record.dataset.people_in_training.get("test", 0):
+        say(
+            f"of the test split's people {in_training:,} are in training too: figures are not of unseen people"
+        )
     for name, figures in model.record.summary.items():
         r2, visible = figures.mean_r2_networks, figures.mean_r2_visible
         say(f"{name.replace('_', ' '):>26}: test R2 {_figure(r2)}, visible shapes {_figure(visible)}")

@@ -125,11 +125,16 @@ class Accuracy:
     points : str
     alone, calibrated : float
         From a frame alone, and beside the person's neutral face; NaN where a model has no such networks.
+    alone_ridge, calibrated_ridge : float
+        Of ridge regression on the same: of exact points trained on such, of others on the networks' own rows; NaN where
+        a record lacks it.
     """
 
     points: str
     alone: float
     calibrated: float
+    alone_ridge: float
+    calibrated_ridge: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -148,7 +153,7 @@ class ReportContent:
     ----------
     title, summary : str
     unseen : str
-        What of the test split the networks have never seen: people, or sessions where splits are by session.
+        What of the test split the networks have never seen: people, or faces alone where training has some of these.
     people_in_training : int
         People of the test split who are in training too.
     accuracy : tuple of Accuracy

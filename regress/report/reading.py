@@ -26,6 +26,8 @@ from regress.targets import VISIBLE_SHAPES
 DELAUNAY_EDGES = 178
 """Of the reference shape; one of them has no mirror image among them, so symmetric networks see 179."""
 
+_DETECTED = "as a detector is guessed to put them"
+
 
 def content_of(model: Model) -> ReportContent:
     """Read everything a report says from a model.
@@ -49,7 +51,7 @@ def content_of(model: Model) -> ReportContent:
         curves = tuple(_curve(network.key, record.networks[network.key]) for network in model.table)
         # records of older models do not say; theirs were split by person as a rule
         in_training = record.dataset.people_in_training.get("test", 0)
-        unseen = "sessions" if in_training else "people"
+        unseen = "faces" if in_training else "people"
         return ReportContent(
             title=f"Model report: {model.recipe} recipe",
             summary=_summary(model, in_training),
@@ -103,11 +105,7 @@ def _regression(split: str, regression: Regression) -> RegressionPlot:
 
 def _summary(model: Model, in_training: int) -> str:
     samples = model.record.dataset.samples
-    whose = (
-        f"sessions they have never seen, though of {in_training:,} people whom they have"
-        if in_training
-        else ""
-    )
+    whose = f"people of whom {in_training:,} are in training too" if in_training else ""
     return (
         f"{len(model.table)} networks turn 68 facial landmarks into {len(model.outputs)} avatar weights. "
         f"Trained on {samples['train']:,} synthetic faces, judged on {samples['test']:,} faces of "
@@ -140,13 +138,24 @@ def _headlines(record: TrainingRecord, scores: tuple[ShapeScores, ...], unseen: 
 
 
 def _accuracy(record: TrainingRecord) -> tuple[Accuracy, ...]:
-    def visible(scores: dict[str, MeanScores], networks: str) -> float:
-        return _number(getattr(scores.get(networks), "mean_r2_visible", None))
+    def visible(scores: dict[str, MeanScores], *methods: str) -> float:
+        """Of the first method that was measured."""
+        found = next((scores[method] for method in methods if method in scores), None)
+        return _number(getattr(found, "mean_r2_visible", None))
 
-    kinds = (("exact points", record.summary), ("as a detector puts them", record.as_detected))
+    kinds = (
+        ("exact points", record.summary, ("ridge",)),
+        (_DETECTED, record.as_detected, ("ridge_same_rows", "ridge")),
+    )
     return tuple(
-        Accuracy(points=points, alone=visible(found, "network"), calibrated=visible(found, "calibrated"))
-        for points, found in kinds
+        Accuracy(
+            points=points,
+            alone=visible(found, "network"),
+            calibrated=visible(found, "calibrated"),
+            alone_ridge=visible(found, *ridges),
+            calibrated_ridge=visible(found, *(f"calibrated_{name}" for name in ridges)),
+        )
+        for points, found, ridges in kinds
         if found
     )
 
@@ -163,7 +172,7 @@ def _calibration(record: TrainingRecord) -> tuple[CalibrationRow, ...]:
         )
         for landmarks, figures in (
             ("as in the dataset", record.summary),
-            ("as a detector puts them", record.as_detected),
+            (_DETECTED, record.as_detected),
         )
         for shapes, key in (("visible shapes", "mean_r2_visible"), ("all shapes", "mean_r2"))
     )

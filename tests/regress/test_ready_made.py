@@ -116,7 +116,7 @@ def test_models_are_listed_with_the_honest_figure_first(run):
     assert code == 0
     record = load_model(LANDMARKS).record
     honest, exact = (means["network"].mean_r2_visible for means in (record.as_detected, record.summary))
-    assert f"R2 {honest:.3f} as a detector puts landmarks" in out
+    assert f"R2 {honest:.3f} as a detector is guessed to put landmarks" in out
     assert out.index(f"{honest:.3f}") < out.index(f"{exact:.3f}")
     listed = json.loads(run("models", "--json")[1])
     assert [card["name"] for card in listed] == list(ready_made_models())

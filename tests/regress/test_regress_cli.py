@@ -1,6 +1,7 @@
 """The regress command: what it writes, what it says, how it exits."""
 
 import csv
+import dataclasses
 import io
 import json
 import os
@@ -14,6 +15,7 @@ import pytest
 
 from facegen.conventions import BLENDSHAPES
 from regress.learning.training import RECIPES, KeypointDataset
+from regress.runtime.model import Model
 from tests.regress.conftest import QUICK
 from tests.regress.test_inputs import bad_inputs
 
@@ -26,6 +28,37 @@ def points_file(dataset: KeypointDataset, tmp_path: Path) -> Path:
     points[3] = np.nan
     np.save(tmp_path / "points.npy", points)
     return tmp_path / "points.npy"
+
+
+@pytest.mark.parametrize("known", [0, 3])
+def test_train_says_whom_of_the_test_people_it_knows(
+    known: int, run, dataset_folder: Path, quick_model: Model, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    record = quick_model.record
+    people = dataclasses.replace(record.dataset, people_in_training={"validation": 0, "test": known})
+    trained = dataclasses.replace(quick_model, record=dataclasses.replace(record, dataset=people))
+    monkeypatch.setattr("regress.learning.training.train", lambda *given, **settings: trained)
+    code, _, said = run("train", dataset_folder, "--out", tmp_path / "model")
+    assert code == 0, said
+    told = "of the test split's people 3 are in training too: figures are not of unseen people"
+    assert (told in said) == bool(known)
+
+
+def test_evaluate_displaces_points_as_a_detector_does(run, quick_model_folder: Path, dataset_folder: Path):
+    """Offsets that pass as well, which the record's guess leaves out."""
+
+    def visible(*options: str) -> float:
+        code, out, said = run("evaluate", quick_model_folder, dataset_folder, "--json", *options)
+        assert code == 0, said
+        return json.loads(out)["summary"]["mean_r2_visible"]
+
+    exact, displaced = visible(), visible("--detector", "mediapipe")
+    assert displaced < exact - 0.05
+    assert displaced == visible("--detector", "mediapipe"), "the same displacements for every model"
+    assert visible("--detector", "mediapipe", "--calibrated") != displaced
+    code, _, said = run("evaluate", quick_model_folder, dataset_folder, "--detector", "dlib")
+    assert code == 2
+    assert "--detector is 'dlib', but must be one of" in said
 
 
 def test_train_writes_a_model_that_evaluate_and_predict_read(

@@ -109,6 +109,11 @@ def test_networks_beat_the_mean_and_their_scores_are_recorded(quick_model: Model
     assert set(record.scores) == set(OUTPUTS)
     assert record.summary["network"].mean_r2 > 0.3
     assert record.summary["mean"].mean_r2 < 0.01
+    floors = {name for name in record.summary if "ridge" in name}
+    assert {name for name in record.as_detected if "ridge" in name} == floors, (
+        "a floor for either kind of points"
+    )
+    assert all(record.as_detected[name] != record.summary[name] for name in floors)
     scores = evaluate_model(quick_model, dataset)
     for name, figures in scores.items():
         assert record.scores[name]["network"] == figures

@@ -80,6 +80,23 @@ def noise_of(record: dict) -> DetectorNoise:
     return KnownDetector(**record) if "detector" in record else DetectorNoise(**record)
 
 
+def detector_noise(name: str) -> KnownDetector:
+    """Offsets as one detector was measured to have, those that stay and those that pass, and a tracked face's jitter.
+
+    Raises
+    ------
+    InputError
+        Where the table has no such detector.
+    """
+    _check_known(name)
+    return KnownDetector(bias=1.0, drift=1.0, jitter=0.001, clean=0.0, detector=name)
+
+
+def _check_known(name: str) -> None:
+    if name not in detectors():
+        raise InputError(f"--detector is {name!r}, but must be one of {', '.join(detectors())}")
+
+
 def for_detector(recipe: Recipe, name: str) -> Recipe:
     """A recipe whose training rows are displaced as one detector displaces points; its jitter stays.
 
@@ -88,8 +105,7 @@ def for_detector(recipe: Recipe, name: str) -> Recipe:
     InputError
         Where the table has no such detector, or the recipe displaces no rows.
     """
-    if name not in detectors():
-        raise InputError(f"--detector is {name!r}, but must be one of {', '.join(detectors())}")
+    _check_known(name)
     if recipe.noise is None or recipe.calibrated_noise is None:
         raise InputError(
             f"--detector {name} needs a recipe that learns from displaced points, and {recipe.name!r} does not"

@@ -5,10 +5,14 @@ import numpy as np
 from facegen.conventions import BLENDSHAPE_INDEX
 from regress.errors import InputError
 from regress.learning.training.dataset import KeypointDataset
-from regress.learning.training.preparation import Faces, faces_of
+from regress.learning.training.noise import DetectorNoise
+from regress.learning.training.preparation import Faces, draw_detected, faces_of
 from regress.runtime.features import extract
 from regress.runtime.model import Model, Scores
 from regress.runtime.networks import evaluate
+
+_NOISE_SEED = 68
+"""Of displaced test faces."""
 
 _BLOCK_ROWS = 4096
 """Rows predicted at a time: 4096 x 620 hidden units are 20 MB."""
@@ -38,9 +42,16 @@ def score(predicted: np.ndarray, true: np.ndarray) -> tuple[Scores, ...]:
 
 
 def evaluate_model(
-    model: Model, dataset: KeypointDataset, *, split: str = "test", calibrated: bool = False
+    model: Model,
+    dataset: KeypointDataset,
+    *,
+    split: str = "test",
+    calibrated: bool = False,
+    noise: DetectorNoise | None = None,
 ) -> dict[str, Scores]:
     """Scores of a model's outputs on one split of a dataset, where asked with each person's neutral frame.
+
+    Points are displaced by ``noise``, the same ones for every model, or lie where the dataset has them.
 
     Raises
     ------
@@ -53,7 +64,12 @@ def evaluate_model(
         raise InputError(
             f"{dataset.name} has no face in the {split} split{beside}, so there is nothing to score"
         )
-    return score_faces(model, faces)
+    return score_faces(model, faces if noise is None else detected(faces, noise))
+
+
+def detected(faces: Faces, noise: DetectorNoise) -> Faces:
+    """Faces as a detector gives them: every model is judged on the same ones."""
+    return draw_detected(faces, noise, np.random.default_rng(_NOISE_SEED))
 
 
 def score_faces(model: Model, faces: Faces) -> dict[str, Scores]:

@@ -180,8 +180,8 @@ def test_probed_faces_of_known_people_are_not_called_unseen_peoples(model, measu
     said = write_report(
         dataclasses.replace(model, record=record), tmp_path / "report.html", measured
     ).read_text()
-    assert "people in unseen sessions, with normal noise" in said
-    assert "Faces of unseen sessions with the largest mean error" in said
+    assert "people, 4 of them in training too, with normal noise" in said
+    assert "Test faces with the largest mean error" in said
     assert not re.search(r"[uU]nseen people", said)
 
 

@@ -83,6 +83,24 @@ def test_page_opens_with_both_figures_of_both_kinds_of_points(model, page):
         for networks in ("network", "calibrated")
     ]
     assert [float(text.replace("\N{MINUS SIGN}", "-")) for text in shown] == pytest.approx(recorded, abs=6e-4)
+    floors = [
+        figures[f"{of}{ridge}"].mean_r2_visible
+        for figures, ridge in (
+            (model.record.summary, "ridge"),
+            (
+                model.record.as_detected,
+                "ridge_same_rows" if "ridge_same_rows" in model.record.as_detected else "ridge",
+            ),
+        )
+        for of in ("", "calibrated_")
+    ]
+    shown = re.findall(r"</td><td>([^<]+)</td>", opening)
+    assert [float(text.replace("\N{MINUS SIGN}", "-")) for text in shown] == pytest.approx(floors, abs=6e-4)
+    assert "always the same way" not in opening
+    old = {name: means for name, means in model.record.as_detected.items() if "ridge" not in name}
+    old = dataclasses.replace(model, record=dataclasses.replace(model.record, as_detected=old))
+    opening = render_page(content_of(old)).partition("<nav")[0]
+    assert re.findall(r"</td><td>([^<]+)</td>", opening)[2:] == ["\N{EN DASH}"] * 2
 
 
 @pytest.mark.parametrize(
@@ -144,10 +162,11 @@ def test_page_calls_nobody_unseen_whom_training_knows(model, page):
     assert "people that appear nowhere in training. 1" in page
     assert "on unseen people" in page
     said = render_page(content_of(_of_sessions(model, 12)))
-    assert "sessions they have never seen, though of 12 people whom they have" in said
-    assert "sessions that appear nowhere in training, though 12 of their people do. 1" in said
-    assert "on sessions the networks have never seen" in said
-    assert "on unseen sessions" in said
+    assert "faces of people of whom 12 are in training too." in said
+    assert "faces that appear nowhere in training, though 12 of their people do. 1" in said
+    assert "on faces the networks have never seen" in said
+    assert "on unseen faces" in said
+    assert "session" not in said, "no one looked whether they are others"
     assert not re.search(r"unseen people|people (they|the networks) have never|people that appear", said)
     old = _of_dataset(model, people_in_training={})
     assert render_page(content_of(old)) == page
