@@ -13,6 +13,7 @@ from facegen.errors import InputError
 from facegen.files import output_errors
 from facegen.formats.litter import is_litter
 from facegen.headsets import headset_path
+from facegen.number_ranges import parse_ranges
 from facegen.sessions import check_layout
 from facegen.spec import LABEL_VERSION, spec_table
 from facegen.store.dataset import Dataset, otherwise_built, rigs_of
@@ -115,7 +116,9 @@ def begin(dataset: Dataset) -> None:
         _renew(dataset)
         _write_cards(dataset)
         return
-    check_layout(dataset.spec, dataset.rigs, dataset.headset, rendered=len(dataset.samples_to_render()))
+    # a spec may name samples that there are not, as long as --samples names others
+    ranges = parse_ranges(dataset.spec.render.samples, where="render.samples")
+    check_layout(dataset.spec, dataset.rigs, dataset.headset, rendered=sum(map(len, ranges)))
     with output_errors(folder.path):
         folder.path.mkdir(parents=True, exist_ok=True)
     # before anything lies there: it imports modules, and a stop during imports ends the program at once
