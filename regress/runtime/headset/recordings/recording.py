@@ -20,6 +20,7 @@ from regress.runtime.headset.pictures.picture_file import (
 from regress.runtime.headset.pictures.picture_stack import PictureStack
 from regress.runtime.headset.pictures.placement import CameraPlacement
 from regress.runtime.headset.recordings.film_frames import Film
+from regress.runtime.headset.recordings.film_times import times_beside
 from regress.runtime.headset.recordings.frame_names import frame_names
 from regress.runtime.headset.recordings.recorded_paths import of_address, pictures_in, whole_of, without_half
 
@@ -57,6 +58,8 @@ class Recording:
         Seconds of the frames, rising, where a film or names tell them.
     note
         What a person should be told of the frames' order, or of lacking ones; empty where nothing.
+    clock
+        Whether times of a film are of a clock beside it, and not from its first frame.
     scaled_from : (n, 2) int64 or None
         Width and height of each picture before it was scaled; None where none was.
     placement
@@ -75,6 +78,7 @@ class Recording:
     fps: float | None = None
     time_s: np.ndarray | None = None
     note: str = ""
+    clock: bool = False
     scaled_from: np.ndarray | None = None
     placement: CameraPlacement | None = None
     whole: bool = False
@@ -189,7 +193,10 @@ def _read_film(
     if not numbers:
         raise InputError(f"{path} cannot be read as a film: it has no frames, or a codec that OpenCV lacks")
     time_s = np.array(times)
+    beside, told = (None, "") if choose is not None else times_beside(path, len(numbers))
+    notes = "; ".join(filter(None, (lacking, told)))
     rises = np.isfinite(time_s).all() and (np.diff(time_s) > 0).all() and len(time_s) > 1
+    own_s = time_s if rises else None if fps is None else np.array(numbers) / fps
     return Recording(
         camera=camera,
         source=str(path),
@@ -197,8 +204,9 @@ def _read_film(
         numbered=False,
         film=True,
         fps=fps,
-        note=f"{camera}: {lacking}" if lacking else "",
-        time_s=time_s if rises else None if fps is None else np.array(numbers) / fps,
+        note=f"{camera}: {notes}" if notes else "",
+        time_s=own_s if beside is None else beside,
+        clock=beside is not None,
         placement=placement,
         **stack.fields,
     )
