@@ -14,7 +14,7 @@ from regress.runtime.headset.pictures.faults import Fault, picture_fault
 from regress.runtime.headset.pictures.halves import half_of
 from regress.runtime.headset.pictures.placement import NO_CUT, CameraPlacement, whole_view
 
-PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
+PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".ppm", ".webp")
 
 ASPECT = 0.02
 """Relative difference of aspect ratios up to which a picture is only scaled: 400 x 400 for 96 x 96, not 640 x 400."""
