@@ -14,6 +14,7 @@ from regress.runtime.headset.pictures.faults import Fault
 from regress.runtime.headset.pictures.halves import half_of
 from regress.runtime.headset.pictures.picture_file import (
     PICTURES,
+    bits_note,
     fit_picture,
     read_picture,
 )
@@ -158,13 +159,15 @@ def _read_folder(
         file = names.files[row]
         stack.add(read_picture(file, width=width, height=height, bits=bits, placement=placement, half=half))
     odd = f"names do not count frames ({names.odd.name} among them); counted from 0" if names.odd else ""
+    dark = set(stack.fields["faults"]) == {Fault.BLACK}
+    told = "; ".join(filter(None, (odd, bits_note(names.files[rows[0]], bits) if dark else "")))
     return Recording(
         camera=camera,
         source=str(path),
         numbers=rows if names.numbers is None else np.array(names.numbers, dtype=np.int64)[rows],
         numbered=names.numbers is not None,
         time_s=None if names.time_s is None else np.array(names.time_s)[rows],
-        note=f"{camera}: {odd}" if odd else "",
+        note=f"{camera}: {told}" if told else "",
         placement=placement,
         **stack.fields,
     )
