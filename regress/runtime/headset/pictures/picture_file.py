@@ -135,10 +135,7 @@ def bits_note(path: Path, bits: int | None) -> str:
     needed = next(depth for depth in _DEPTHS if used <= depth)
     if needed >= bits or int(grey.max()) < DARK:
         return ""
-    return (
-        f"its brightest level is {grey.max()}, and --bits {bits} holds levels to {(1 << bits) - 1}: of a camera of "
-        f"{needed} bits give --bits {needed}"
-    )
+    return f"its brightest level is {grey.max()}; give --bits {needed}"
 
 
 def has_shape_of(picture: tuple[int, int], view: tuple[float, float]) -> bool:
