@@ -8,8 +8,11 @@ import numpy as np
 from facegen.console import silent_stderr
 from facegen.errors import FormatError
 
-FILMS = (".mp4", ".avi", ".mkv", ".mov", ".webm", ".m4v")
-"""Endings of films that can be read."""
+WRITTEN_FILMS = (".mp4", ".avi", ".mkv", ".mov", ".webm", ".m4v")
+"""Endings of films that can be written."""
+
+FILMS = (*WRITTEN_FILMS, ".mjpeg", ".mjpg", ".mpg", ".mpeg", ".ts", ".wmv", ".3gp")
+"""Endings of films that can be read, where FFmpeg in OpenCV has the codec."""
 
 _VP9, _MPEG4_PART_2 = "VP90", "mp4v"
 

@@ -231,6 +231,9 @@ def test_pictures_of_more_bits_say_how_many(run, model: Path, tmp_path: Path, su
     code, nothing, said = run("headset", "predict", model, *twelve, "--bits", 10)
     assert (code, nothing) == (2, "")
     assert "--bits 10 holds levels to 1023" in said
+    code, nothing, said = run("headset", "predict", model, *twelve, "--bits", 16)
+    assert (code, nothing) == (2, "")
+    assert "give --bits 12" in said, "all of them look black"
     for file in tmp_path.glob(
         "twelve/*.png"
     ):  # a glint that saturates what 16 bits hold is no reason to refuse

@@ -59,3 +59,26 @@ def test_ffmpeg_writes_nothing_of_a_damaged_film(tmp_path: Path):
     )
     done = subprocess.run([sys.executable, "-c", source], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("ending", [".mjpeg", ".mpg", ".ts", ".m4v", ".mkv"])
+def test_films_of_many_endings_are_read(tmp_path: Path, ending: str):
+    """Cameras' programs write Motion JPEG without a container, and broadcasters' tools transport streams."""
+    path = film(tmp_path / "eye.avi")
+    if ending == ".mjpeg":
+        capture, pictures = cv2.VideoCapture(str(path)), []
+        while (read_one := capture.read())[0]:
+            pictures.append(cv2.imencode(".jpg", read_one[1])[1].tobytes())
+        path = path.with_suffix(ending)
+        path.write_bytes(b"".join(pictures))
+    else:
+        path = path.rename(path.with_suffix(ending))  # FFmpeg goes by what is in it
+    found = read(path)
+    assert (len(found.pictures), found.note) == (FRAMES, "")
+
+
+def test_portable_pixmaps_are_pictures(tmp_path: Path):
+    for number in range(3):
+        picture = np.random.default_rng(number).integers(40, 200, (64, 64, 3), dtype=np.uint8)
+        assert cv2.imwrite(str(tmp_path / f"{number}.ppm"), picture)
+    assert read(tmp_path).faults == (None,) * 3

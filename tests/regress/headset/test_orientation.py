@@ -152,3 +152,25 @@ def test_a_typical_picture_is_the_mean_of_the_rows_that_count():
             .repeat(2, 2)
         )
         assert abs(int(typical_picture(many, np.arange(count))[0, 0]) - 40) <= 8
+
+
+def test_a_mouth_that_is_a_little_like_one_on_its_side_is_not_told():
+    """A real one, upright, has .55 with training's on its side, and .25 with training's as it is."""
+    own = TYPICAL["mouth"].astype(float)
+    own = (own - own.mean()) / own.std()
+    turned = np.rot90(own)
+    random = cv2.GaussianBlur(np.random.default_rng(4).normal(size=own.shape), (0, 0), 3.0)
+    basis = np.linalg.qr(np.stack([np.ones(own.size), own.ravel(), turned.ravel(), random.ravel()], axis=1))[
+        0
+    ]
+    rest = basis[:, 3].reshape(own.shape) * np.sqrt(own.size)
+    alike = float((own * turned).mean())
+    for wanted, told in ((0.55, False), (0.9, True)):
+        # so much of each that it correlates by .25 with the own and by as much as wanted with the turned one
+        shares = np.linalg.solve([[1, alike], [alike, 1]], [0.25, wanted])
+        explained = float(shares @ [0.25, wanted])
+        picture = shares[0] * own + shares[1] * turned + np.sqrt(max(1 - explained, 0)) * rest
+        seen = np.clip(120 + 30 * picture, 0, 255).astype(np.uint8)
+        stack = np.stack([cv2.resize(seen, (SIDE, SIDE), interpolation=cv2.INTER_AREA)] * 4)
+        said = told_orientation(footage({"mouth": stack}), TYPICAL)
+        assert any("its own turned by 90°" in line for line in said) is told, said

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 
 from facegen.files import output_errors, whole_file
-from facegen.formats.film import FILMS, check_film_path, encode_film
+from facegen.formats.film import WRITTEN_FILMS, check_film_path, encode_film
 from facegen.formats.ppm import read_ppm_stream
 from regress.errors import InputError, OutputError
 from regress.runtime.headset.recordings.footage import Footage
@@ -54,8 +54,10 @@ def write_film(
 def check_film_name(path: Path) -> None:
     """Refuse a name whose ending is not one of those that can be written, or that is no text."""
     check_film_path(path)
-    if path.suffix.lower() not in FILMS:
-        raise InputError(f"{path} is no name of a film that can be written; these end in {', '.join(FILMS)}")
+    if path.suffix.lower() not in WRITTEN_FILMS:
+        raise InputError(
+            f"{path} is no name of a film that can be written; these end in {', '.join(WRITTEN_FILMS)}"
+        )
 
 
 def tiles(footage: Footage, row: int, height_px: int) -> np.ndarray:

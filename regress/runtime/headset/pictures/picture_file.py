@@ -10,11 +10,11 @@ from facegen.documents import read_bytes
 from facegen.formats import FormatError
 from facegen.formats.picture_size import MOST_PIXELS, picture_size
 from regress.errors import InputError
-from regress.runtime.headset.pictures.faults import Fault, picture_fault
+from regress.runtime.headset.pictures.faults import DARK, Fault, picture_fault
 from regress.runtime.headset.pictures.halves import half_of
 from regress.runtime.headset.pictures.placement import NO_CUT, CameraPlacement, whole_view
 
-PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
+PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".ppm", ".webp")
 
 ASPECT = 0.02
 """Relative difference of aspect ratios up to which a picture is only scaled: 400 x 400 for 96 x 96, not 640 x 400."""
@@ -29,6 +29,10 @@ MOST_PICTURE_BYTES = 256 * 1024**2
 
 _GLINTS = 0.01
 """Share of a picture's pixels from which levels that its bits do not hold are no glints."""
+
+
+_DEPTHS = (8, 10, 12, 14, 16)
+"""Bits of cameras."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -120,6 +124,18 @@ def _eight_bits(grey: np.ndarray, path: Path, bits: int | None) -> np.ndarray:
             f"where the camera's bits are the upper ones"
         )
     return (np.minimum(grey, (1 << bits) - 1) >> (bits - 8)).astype(np.uint8)
+
+
+def bits_note(path: Path, bits: int | None) -> str:
+    """That a black picture of 16 bits a pixel is one of a camera of fewer bits, in words; empty where it is none."""
+    grey = decoded(path)
+    if bits is None or isinstance(grey, Fault) or grey.dtype != np.uint16:
+        return ""
+    used = int(np.percentile(grey, 100 * (1 - _GLINTS))).bit_length()
+    needed = next(depth for depth in _DEPTHS if used <= depth)
+    if needed >= bits or int(grey.max()) < DARK:
+        return ""
+    return f"its brightest level is {grey.max()}; give --bits {needed}"
 
 
 def has_shape_of(picture: tuple[int, int], view: tuple[float, float]) -> bool:

@@ -48,7 +48,7 @@ def match(
     InputError
         Where the cameras have nothing in common.
     """
-    recordings = {name: _timed(each) for name, each in recordings.items()}
+    recordings = _on_one_clock({name: _timed(each) for name, each in recordings.items()})
     begun = {name: _begun(each) for name, each in recordings.items()} if from_start else recordings
     timed = all(each.time_s is not None and (fps is None or not each.film) for each in recordings.values())
     clocks = timed and any(not each.film for each in recordings.values())
@@ -73,6 +73,16 @@ def _timed(recording: Recording) -> Recording:
     if recording.time_s is not None or recording.fps is None:
         return recording
     return replace(recording, time_s=recording.numbers / recording.fps)
+
+
+def _on_one_clock(recordings: dict[str, Recording]) -> dict[str, Recording]:
+    """The recordings, whose films with times of a clock begin at 0 where not all have some."""
+    if all(each.clock for each in recordings.values()):
+        return recordings
+    return {
+        name: replace(each, time_s=each.time_s - each.time_s[0]) if each.clock else each
+        for name, each in recordings.items()
+    }
 
 
 def _begun(recording: Recording) -> Recording:

@@ -14,12 +14,14 @@ from regress.runtime.headset.pictures.faults import Fault
 from regress.runtime.headset.pictures.halves import half_of
 from regress.runtime.headset.pictures.picture_file import (
     PICTURES,
+    bits_note,
     fit_picture,
     read_picture,
 )
 from regress.runtime.headset.pictures.picture_stack import PictureStack
 from regress.runtime.headset.pictures.placement import CameraPlacement
 from regress.runtime.headset.recordings.film_frames import Film
+from regress.runtime.headset.recordings.film_times import times_beside
 from regress.runtime.headset.recordings.frame_names import frame_names
 from regress.runtime.headset.recordings.recorded_paths import of_address, pictures_in, whole_of, without_half
 
@@ -57,6 +59,8 @@ class Recording:
         Seconds of the frames, rising, where a film or names tell them.
     note
         What a person should be told of the frames' order, or of lacking ones; empty where nothing.
+    clock
+        Whether times of a film are of a clock beside it, and not from its first frame.
     scaled_from : (n, 2) int64 or None
         Width and height of each picture before it was scaled; None where none was.
     placement
@@ -75,6 +79,7 @@ class Recording:
     fps: float | None = None
     time_s: np.ndarray | None = None
     note: str = ""
+    clock: bool = False
     scaled_from: np.ndarray | None = None
     placement: CameraPlacement | None = None
     whole: bool = False
@@ -154,13 +159,15 @@ def _read_folder(
         file = names.files[row]
         stack.add(read_picture(file, width=width, height=height, bits=bits, placement=placement, half=half))
     odd = f"names do not count frames ({names.odd.name} among them); counted from 0" if names.odd else ""
+    dark = set(stack.fields["faults"]) == {Fault.BLACK}
+    told = "; ".join(filter(None, (odd, bits_note(names.files[rows[0]], bits) if dark else "")))
     return Recording(
         camera=camera,
         source=str(path),
         numbers=rows if names.numbers is None else np.array(names.numbers, dtype=np.int64)[rows],
         numbered=names.numbers is not None,
         time_s=None if names.time_s is None else np.array(names.time_s)[rows],
-        note=f"{camera}: {odd}" if odd else "",
+        note=f"{camera}: {told}" if told else "",
         placement=placement,
         **stack.fields,
     )
@@ -189,7 +196,10 @@ def _read_film(
     if not numbers:
         raise InputError(f"{path} cannot be read as a film: it has no frames, or a codec that OpenCV lacks")
     time_s = np.array(times)
+    beside, told = (None, "") if choose is not None else times_beside(path, len(numbers))
+    notes = "; ".join(filter(None, (lacking, told)))
     rises = np.isfinite(time_s).all() and (np.diff(time_s) > 0).all() and len(time_s) > 1
+    own_s = time_s if rises else None if fps is None else np.array(numbers) / fps
     return Recording(
         camera=camera,
         source=str(path),
@@ -197,8 +207,9 @@ def _read_film(
         numbered=False,
         film=True,
         fps=fps,
-        note=f"{camera}: {lacking}" if lacking else "",
-        time_s=time_s if rises else None if fps is None else np.array(numbers) / fps,
+        note=f"{camera}: {notes}" if notes else "",
+        time_s=own_s if beside is None else beside,
+        clock=beside is not None,
         placement=placement,
         **stack.fields,
     )
