@@ -17,7 +17,7 @@ from regress.errors import InputError
 from regress.exporters.answering import Answering, runs_of
 from regress.exporters.formula import Formula
 from regress.exporters.halves import Halves, halves_of
-from regress.exporters.outline import FLAT, MOST_AREA, OUTLINE
+from regress.exporters.outline import FLAT, LARGEST_AREA, OUTLINE
 
 LINE_WIDTH = 110
 C_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -83,7 +83,7 @@ def export_c(formula: Formula, name: str) -> dict[str, bytes]:
         functions, player = "predict.h", ""
     else:
         words["neutral_count"] = formula.calibrated.measures.count
-        words |= {"outline": _wrapped(map(str, OUTLINE)), "flat": f"{FLAT:g}", "turned": f"{MOST_AREA:g}"}
+        words |= {"outline": _wrapped(map(str, OUTLINE)), "flat": f"{FLAT:g}", "turned": f"{LARGEST_AREA:g}"}
         words["stack_kb"] = max(map(_stack_kb, (formula.alone, formula.calibrated)))
         sets = [
             _set_of(formula.alone, _ALONE, words, of=f"{own}alone_"),

@@ -18,7 +18,7 @@ from regress.exporters.answering import Answering, runs_of
 from regress.exporters.c_source import comment
 from regress.exporters.formula import Formula
 from regress.exporters.halves import Halves, halves_of
-from regress.exporters.outline import FLAT, MOST_AREA, OUTLINE
+from regress.exporters.outline import FLAT, LARGEST_AREA, OUTLINE
 
 LINE_WIDTH = 110
 
@@ -62,7 +62,7 @@ def export_javascript(formula: Formula, name: str) -> dict[str, bytes]:
         }
         scopes = {key: indent("".join(texts), "  ").rstrip("\n") for key, texts in sets.items()}
         words["usage"] = _filled("usage_players.js", words)
-        limits = {"outline": _listed(OUTLINE.tolist()), "flat": f"{FLAT:g}", "turned": f"{MOST_AREA:g}"}
+        limits = {"outline": _listed(OUTLINE.tolist()), "flat": f"{FLAT:g}", "turned": f"{LARGEST_AREA:g}"}
         words["networks"] = _filled("players.js", scopes | limits)
         words["players"] = _filled("players.d.ts", words)
     return {f"{name}{suffix}": _filled(f"file{suffix}", words).encode() for suffix in (".js", ".d.ts")}

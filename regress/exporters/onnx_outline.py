@@ -3,7 +3,7 @@
 import numpy as np
 
 from regress.exporters.onnx_nodes import Part
-from regress.exporters.outline import FLAT, MOST_AREA, OUTLINE
+from regress.exporters.outline import FLAT, LARGEST_AREA, OUTLINE
 
 
 def append_face_check(part: Part, points: str) -> str:
@@ -12,7 +12,7 @@ def append_face_check(part: Part, points: str) -> str:
         part.constant(key, value, dtype=np.int64)
     for key, value in {"each": [1], "each_axis": [2], "all_axes": [1, 2]}.items():
         part.constant(key, value, dtype=np.int64)
-    for key, value in {"least": 0.0, "most_area": MOST_AREA, "flatness": FLAT}.items():
+    for key, value in {"least": 0.0, "most_area": LARGEST_AREA, "flatness": FLAT}.items():
         part.constant(key, np.array(value))
     part.constant("exchange", [[0.0, 1.0], [1.0, 0.0]])
     part.constant("quarter", [[0.0, -1.0], [1.0, 0.0]])

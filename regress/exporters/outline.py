@@ -2,7 +2,7 @@
 
 from regress.runtime.inputs.faults import FLAT, OUTLINE, TURNED
 
-__all__ = ["FLAT", "MOST_AREA", "OUTLINE"]
+__all__ = ["FLAT", "LARGEST_AREA", "OUTLINE"]
 
-MOST_AREA = 8 * TURNED
+LARGEST_AREA = 8 * TURNED
 """Twice the outline's area over the square of the face's extent, beyond which it runs the wrong way round."""
