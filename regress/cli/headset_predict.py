@@ -110,7 +110,7 @@ def predict(
             help="JSON with gain, offset, dead_zone, low and high by shape; a resting face is --neutral's.",
         ),
     ] = None,
-    own_blinks: OwnBlinksOption = False,
+    own_blinks: OwnBlinksOption = None,
     amplify_eyes: Annotated[
         float,
         typer.Option("--amplify-eyes", min=0, max=1000, help="Factor on blink, wide and squint of each eye."),
@@ -196,7 +196,7 @@ def predict(
         smooth=smooth,
         cutoff_hz=cutoff_hz,
         beta=beta,
-        own_blinks=own_blinks,
+        own_blinks=bool(own_blinks),
         amplify_eyes=amplify_eyes,
         adjust=adjust,
         left_right_blend=left_right_blend,
@@ -227,7 +227,7 @@ def predict(
             filter=filter_name is not FilterName.none,
             smooth=smooth > 1,
             one_euro=cutoff_hz is not None,
-            own_blinks=own_blinks,
+            own_blinks=bool(own_blinks),
             bits=bits is not None,
         )
     check_model(predictor, model, trust=trust, points=points)
@@ -241,6 +241,8 @@ def predict(
     )
     if footage.time_s is None and (output.needs_times or needs_times(table_format, gltf)):
         raise InputError(f"{footage.source} does not say when its frames were taken; give --fps")
+    film = dataset is None and footage.time_s is not None
+    output = output.with_own_blinks(film=own_blinks is None and person is None and film)
     tell_of(footage, predictor, strict=strict)
     # pictures of a dataset are of many people, each with levels of their own
     levels = {} if dataset is not None else levels_of_cameras(footage, predictor.model.looks, placed)

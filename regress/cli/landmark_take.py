@@ -65,6 +65,7 @@ def predict_file(
     *,
     neutral: str | None,
     auto_filter: bool,
+    auto_blinks: bool,
     fps: float | None,
     strict: bool,
     trust: Path | None,
@@ -102,6 +103,8 @@ def predict_file(
         _say_odd_rate(str(landmarks), main)
     timed = output.needs_times or needs_times(table_format, gltf)
     frames = sound_rows(frames, needs_times=timed, strict=strict)
+    # without a neutral face a lid's readings mean less: there stretched ones err more (docs/measurements)
+    auto_blinks = auto_blinks and is_film(main.time_s)
     if neutral is None and len(frames.labels) > 1 and model.calibrated is not None:
         say(
             f"{landmarks}: no neutral face is given, so weights are guesses; --neutral names frames at rest, as in "
@@ -113,7 +116,7 @@ def predict_file(
         prediction = predict_frames(
             model if calm[face] is None else model.calibrate(calm[face].points),
             frames.take(rows),
-            output=output,
+            output=output.with_own_blinks(film=auto_blinks and calm[face] is not None),
             confident=trust is not None,
             head=_head_settings(camera, calm[face]),
             keep_guessed_gaze=keep_guessed_gaze,

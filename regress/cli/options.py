@@ -89,9 +89,11 @@ BlendOption = Annotated[
 ]
 
 OwnBlinksOption = Annotated[
-    bool,
+    bool | None,
     typer.Option(
-        "--own-blinks", help="Stretch blinks by the full ones of the take, which then shut the eyes."
+        "--own-blinks/--no-own-blinks",
+        help="Stretch blinks by the full ones of the take, which then shut the eyes. Films of eight blinks or more "
+        "are stretched of themselves, unless lids are changed otherwise; landmarks with a neutral face alone.",
     ),
 ]
 

@@ -132,6 +132,14 @@ def test_openfaces_millimetres_are_no_points_of_a_picture(tmp_path: Path):
         read_frames(tmp_path / "a.csv")
 
 
+def test_small_letters_go_before_capitals_of_other_points(tmp_path: Path):
+    """As OpenFace calls points in space, whatever stands before the letter."""
+    names = [f"lm_{axis}_{index}" for axis in "xyXYZ" for index in range(LANDMARK_COUNT)]
+    rows = [",".join(map(repr, [*face.T.ravel().tolist(), *[7.0] * 3 * LANDMARK_COUNT])) for face in FACES]
+    (tmp_path / "a.csv").write_text("\n".join([",".join(names), *rows]) + "\n")
+    np.testing.assert_allclose(read_frames(tmp_path / "a.csv").points, FACES)
+
+
 def test_an_archive_of_several_arrays_is_refused(tmp_path: Path):
     np.savez(tmp_path / "a.npz", b=FACES, a=FACES)
     with pytest.raises(InputError, match=r"holds 2 arrays \(a, b\); one is needed"):

@@ -1,5 +1,6 @@
 """A person's own blinks: what counts as one, when they are trusted, and what is never touched."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,8 @@ from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPES, BLINK_INDICES
 from regress.runtime.sample import Sample
+from regress.runtime.stages.adjustment import ShapeAdjustment
+from regress.runtime.stages.output import Output
 from regress.runtime.stages.own_blinks import (
     FEWEST,
     MOST,
@@ -286,12 +289,16 @@ def test_samples_without_weights_or_times_pass():
 
 
 def test_a_recording_of_landmarks_is_stretched_by_its_own_blinks(run):
-    """Weights as they leave without the option go through the very stage, and the person is told."""
+    """Weights as they leave without them go through the very stage, unasked too, and the person is told."""
     command = ("predict", "landmarks-default", SAMPLES / "talking-face.csv", "--neutral", "1-30")
-    code, plain, _ = run(*command)
+    code, plain, silent = run(*command, "--no-own-blinks")
     assert code == 0
     code, stretched, told = run(*command, "--own-blinks")
     assert code == 0
+    assert run(*command) == (0, stretched, told)
+    assert "fullest blinks" not in silent
+    code, guessed, _ = run(*command[:-2])
+    assert (code, guessed) == run(*command[:-2], "--no-own-blinks")[:2], "no neutral face, so nothing unasked"
     rows, found = ([line.split(",") for line in text.splitlines()] for text in (plain, stretched))
     columns = [rows[0].index(name) for name in ("eyeBlinkLeft", "eyeBlinkRight")]
     read = np.array([[float(row[column]) for column in columns] for row in rows[1:]])
@@ -301,6 +308,30 @@ def test_a_recording_of_landmarks_is_stretched_by_its_own_blinks(run):
     shown = np.array([[float(row[column]) for column in columns] for row in found[1:]])
     np.testing.assert_allclose(shown, expected, atol=1e-3)
     assert said[0] in told
+
+
+def test_blinks_of_films_are_stretched_unasked_unless_somebody_changes_lids():
+    brows = Output(
+        adjustments={"browInnerUp": ShapeAdjustment(gain=2.0), "*": ShapeAdjustment(dead_zone=0.1)}
+    )
+    assert brows.with_own_blinks(film=True) == replace(brows, own_blinks=True, few_told=False)
+    assert brows.with_own_blinks(film=False) == brows
+    for lids in (
+        Output(adjustments={"eyeBlinkRight": ShapeAdjustment(gain=2.0)}),
+        Output(amplify_eyes=1.5),
+    ):
+        assert lids.with_own_blinks(film=True) == lids
+
+
+@pytest.mark.parametrize("few_told", [False, True])
+@pytest.mark.parametrize("full", [1.0, 0.5])
+def test_of_blinks_that_stay_a_person_is_told_where_they_asked(full: float, few_told: bool):
+    said: list[str] = []
+    for blinks in (3, 9):
+        TakeBlinks(said.append, few_told=few_told).run(take(lid([full] * blinks)))
+    few, enough = ("fewer than 8" in " ".join(said)), ("fullest blinks" in " ".join(said))
+    assert few is few_told
+    assert enough is (few_told or full < 1)
 
 
 def test_lines_that_are_answered_as_they_come_have_no_take_to_go_by(run):

@@ -35,9 +35,9 @@ def point_columns(columns: Iterable[str], path: Path) -> tuple[str, ...]:
     """
     columns = list(columns)
     families = _families(columns)
-    runs = [names for family in families.values() if (names := _run(family))]
+    runs = {kind: names for kind, family in families.items() if (names := _run(family))}
     if runs:
-        return max(runs, key=len)
+        return runs[max(runs, key=lambda kind: (len(runs[kind]), "@" in kind))]
     if are_weights(columns):
         raise InputError(
             f"{path} is a table of weights already; the landmarks that they came from are needed"
@@ -59,7 +59,7 @@ def point_columns(columns: Iterable[str], path: Path) -> tuple[str, ...]:
 
 
 def _families(columns: Iterable[str]) -> dict[str, _Family]:
-    """Columns of points by what their names have in common: ``@`` is the axis there, and ``#`` the number."""
+    """Columns of points by what their names have in common: ``#`` is the number, ``@`` the axis, ``^`` a capital."""
     families: dict[str, _Family] = {}
     for name in columns:
         pieces = _PIECES.findall(name)
@@ -69,7 +69,7 @@ def _families(columns: Iterable[str]) -> dict[str, _Family]:
             continue
         axis, number = axes[0], min(numbers, key=lambda place: (abs(place - axes[0]), -place))
         marked = [*pieces]
-        marked[axis], marked[number] = "@", "#"
+        marked[axis], marked[number] = "@" if pieces[axis].islower() else "^", "#"
         families.setdefault("".join(marked), {})[pieces[axis].lower(), int(pieces[number])] = name
     return families
 

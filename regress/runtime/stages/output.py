@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from facegen.conventions import BLENDSHAPES
+from facegen.conventions import BLENDSHAPES, BLINK_INDICES
 from regress.errors import InputError
 from regress.runtime.sample import Sample
 from regress.runtime.stages.adjustment import ShapeAdjustment, adjust, blend_sides, mirror
@@ -35,6 +35,8 @@ class Output:
         One-Euro smoothing by the frames' times; None for none.
     own_blinks
         Whether blinks are stretched by the fullest ones of the take, which is held back until its end.
+    few_told
+        Whether a take with too few blinks for it is told of.
     amplify_eyes
         Factor on blink, wide and squint of each eye, which the second paper lets people exaggerate.
     adjustments
@@ -57,6 +59,7 @@ class Output:
     smooth: int = 1
     one_euro: OneEuro | None = None
     own_blinks: bool = False
+    few_told: bool = True
     amplify_eyes: float = 1.0
     adjustments: dict[str, ShapeAdjustment] = field(default_factory=dict)
     left_right_blend: float = 0.0
@@ -80,6 +83,17 @@ class Output:
         by_time = self.one_euro is not None or self.smooth_landmarks_hz is not None
         return filtered_by_time or by_time or self.own_blinks
 
+    @property
+    def changes_lids(self) -> bool:
+        """Whether somebody has said how blinks are to be changed."""
+        return self.amplify_eyes != 1 or any(
+            BLENDSHAPES[index] in self.adjustments for index in BLINK_INDICES
+        )
+
+    def with_own_blinks(self, *, film: bool) -> "Output":
+        """The output with own blinks, unasked, of a film; as it is otherwise, and where lids are changed."""
+        return replace(self, own_blinks=True, few_told=False) if film and not self.changes_lids else self
+
     def stages(self, say: Callable[[str], None] = lambda message: None) -> list[Stage]:
         """Stages behind the networks, new ones for each take; only those asked for. ``say`` is told of blinks."""
         made: list[Stage] = []
@@ -90,7 +104,7 @@ class Output:
         if self.one_euro is not None:
             made.append(OneEuroSmoothing(self.one_euro))
         if self.own_blinks:
-            made.append(TakeBlinks(say))
+            made.append(TakeBlinks(say, few_told=self.few_told))
         if self.amplify_eyes != 1:
             lids = dict.fromkeys(LIDS, ShapeAdjustment(gain=self.amplify_eyes))
             made.append(WeightMap(partial(adjust, adjustments=lids)))

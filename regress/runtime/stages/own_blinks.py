@@ -259,10 +259,12 @@ class TakeBlinks(DelayingStage):
     ----------
     say
         Told at the end what was found.
+    few_told
+        Also where too few blinks were seen, or they are full as they are read.
     """
 
-    def __init__(self, say: Callable[[str], None] = lambda message: None) -> None:
-        self._say = say
+    def __init__(self, say: Callable[[str], None] = lambda message: None, *, few_told: bool = True) -> None:
+        self._say, self._few_told = say, few_told
         self._eyes = (BlinkWatch(remembered=None), BlinkWatch(remembered=None))
         self._held: list[Sample] = []
 
@@ -278,7 +280,8 @@ class TakeBlinks(DelayingStage):
         """All samples."""
         ends = [eye.ends for eye in self._eyes]
         seen = max(len(eye.peaks) for eye in self._eyes)
-        self._say(told_of(ends) if seen >= FEWEST else _too_few(seen))
+        if self._few_told or max(own.factor for own in ends) >= TOLD_FROM:
+            self._say(told_of(ends) if seen >= FEWEST else _too_few(seen))
         held, self._held = self._held, []
         return [_with_blinks(sample, ends) for sample in held]
 
