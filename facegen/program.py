@@ -18,7 +18,7 @@ from facegen.children import answer_stops
 from facegen.console import redirect_to_devnull, say
 from facegen.errors import ExitCode, FacegenError, InputError
 from facegen.extras import Extra, missing_extra
-from facegen.redaction import without_secrets
+from facegen.redaction import text_without_secrets, without_secrets
 from facegen.version import __version__
 
 if TYPE_CHECKING:
@@ -240,8 +240,8 @@ def _fault(app: "typer.Typer", error: Exception) -> int:
         handle, path = tempfile.mkstemp(prefix=f"{name}-fault-", suffix=".txt")
         with open(handle, "w", encoding="utf-8", errors="backslashreplace") as file:
             file.write(f"{name}, {time.strftime('%FT%T%z')}, {platform.platform()}, Python {sys.version}\n")
-            file.write(_without_secrets(f"{sys.argv}\n{os.getcwd()}\n\n"))
-            file.write(_without_secrets("".join(traceback.format_exception(error))))
+            file.write(f"{[without_secrets(word) for word in sys.argv]}\n{os.getcwd()}\n\n")
+            file.write(text_without_secrets("".join(traceback.format_exception(error)), sys.argv[1:]))
         kept = f"details are in {path}; please report it with them"
     except OSError:
         frame = traceback.extract_tb(error.__traceback__)[-1]
@@ -249,16 +249,9 @@ def _fault(app: "typer.Typer", error: Exception) -> int:
     if isinstance(error, MemoryError):
         say(f"{name}: memory ran out; give it more, or less to do at once ({kept})")
     else:
-        told = _without_secrets(str(error))[:200]
+        told = text_without_secrets(str(error), sys.argv[1:])[:200]
         say(f"{name}: internal error ({type(error).__name__}: {told}); {kept}")
     return ExitCode.INTERNAL
-
-
-def _without_secrets(text: str) -> str:
-    """A text in which the words that the program was called with go without their passwords and keys."""
-    for word in sys.argv[1:]:
-        text = text.replace(word, without_secrets(word)) if word else text
-    return text
 
 
 def _command(app: "typer.Typer") -> str:

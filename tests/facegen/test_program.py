@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from facegen.console import MOST_CHARACTERS, one_line
+from facegen.redaction import text_without_secrets
 from tests.facegen.cli.commands import ROOT
 
 PROGRAM = """
@@ -107,15 +108,40 @@ def test_the_unforeseen_is_one_line_and_its_traceback_in_a_file(tmp_path, body):
     assert Path(match[1]).stat().st_mode & 0o077 == 0
 
 
-def test_what_is_to_be_reported_holds_no_password(tmp_path):
-    """Neither among the words that the program was called with nor where a library's message repeats one of them."""
-    word = "mouth=rtsp://me:pa=ss@camera.local/live?password=word"
-    ended = called("raise RuntimeError(sys.argv[-1])", "make", "--out", word, tmpdir=tmp_path)
+@pytest.mark.parametrize(
+    ("word", "repeated"),
+    [
+        ("mouth=rtsp://me:pa=ss@camera.local/live?password=word", "sys.argv[-1]"),
+        ("mouth=rtsp://me:pa=ss@camera.local/live", "sys.argv[-1][6:]"),
+        ("mouth=rtsp://me:pa=ss@camera.local/live,fps=60", "sys.argv[-1][6:-7]"),
+        ("mouth=rtsp://me:a pa=ss@camera.local/live,fps=60", "sys.argv[-1][6:-7]"),
+        ("mouth=rtsp://me:a pa=ss@camera.local/live#left", "sys.argv[-1][6:-5]"),
+        (r"rtsp://me:\pa=ss@camera.local/live", "repr(sys.argv[-1])"),
+        (r"rtsp://me:a\ pa=ss@camera.local/live", "repr(sys.argv[-1])"),
+        ("room:https://camera.local/room/x#password=word.word.word", "sys.argv[-1][5:]"),
+        ("room:camera.local/room/x#password=word.word.word", "sys.argv[-1][5:]"),
+        ("97", "'http://me:pa=ss@camera.local/live, and http://camera.local/?password=word'"),
+    ],
+)
+def test_what_is_to_be_reported_holds_no_password(tmp_path, word, repeated):
+    """Neither among the words that the program was called with nor where a library's message repeats a part of one."""
+    ended = called(f"raise RuntimeError({repeated})", "make", "--out", word, tmpdir=tmp_path)
     assert ended.returncode == 70
     (details,) = tmp_path.glob("masks-fault-*.txt")
     for told in (details.read_text(), ended.stderr):
         assert "camera.local" in told
         assert not re.search("pa=ss|word=", told)
+
+
+@given(
+    before=st.text(st.characters(codec="ascii", exclude_characters="\0")),
+    address=st.text(st.characters(codec="ascii", categories=["L", "N", "P", "S"])),
+    secret=st.sampled_from(
+        ["://me:pa=ss@", "://camera.local/?user=me&password=word", "#" + "password=word" * 2]
+    ),
+)
+def test_no_address_in_a_text_holds_a_password(before, address, secret):
+    assert not re.search("pa=ss|word=", text_without_secrets(f"{before}http{secret}{address} failed", []))
 
 
 def test_a_fault_without_a_place_for_details_says_where_it_was(tmp_path):
