@@ -107,7 +107,7 @@ def submit(
     )
     chosen = farm.parse_steps(steps)
     check_folder_is_free(dataset)  # the jobs of another dataset say nothing of this one
-    request = farm.plan_request(dataset, samples, steps=chosen)
+    request = farm.plan_request(dataset, samples, steps=chosen, dry_run=dry_run)
     left = request.remaining
     if chosen == ("generate",) and not (left.shards or left.samples):
         say("facegen: nothing to submit; all that is asked for is there, has a task, or failed for good")
@@ -125,7 +125,7 @@ def submit(
         model=model and str(model),
         at_work=request.at_work,
     )
-    _hand_over(dataset, job, dry_run=dry_run, wait=wait, as_json=as_json)
+    _hand_over(dataset, job, doubts=request.doubts, dry_run=dry_run, wait=wait, as_json=as_json)
 
 
 @farm_app.command()
@@ -149,7 +149,7 @@ def resume(
     from facegen.store import open_dataset
 
     opened = open_dataset(dataset)
-    resumption = farm.plan_resumption(opened, retry_quarantined=retry_quarantined)
+    resumption = farm.plan_resumption(opened, retry_quarantined=retry_quarantined, dry_run=dry_run)
     if resumption.postponed:
         names = ", ".join(resumption.postponed)
         say(f"facegen: {names} must wait for tasks that are not done; resume again after them")
@@ -161,7 +161,8 @@ def resume(
         return
     job = farm.prepare_resumption(opened, resumption, chunk=chunk)
     retried = resumption.state.quarantined if retry_quarantined else ()
-    _hand_over(opened, job, retried=retried, dry_run=dry_run, wait=wait, as_json=as_json)
+    doubts = resumption.state.doubts
+    _hand_over(opened, job, doubts=doubts, retried=retried, dry_run=dry_run, wait=wait, as_json=as_json)
 
 
 @farm_app.command()
@@ -227,13 +228,20 @@ def cancel(dataset: Folder) -> None:
 
 
 def _hand_over(
-    dataset: "Dataset", job: "Job", *, retried: tuple[str, ...] = (), dry_run: bool, wait: bool, as_json: bool
+    dataset: "Dataset",
+    job: "Job",
+    *,
+    doubts: list[str],
+    retried: tuple[str, ...] = (),
+    dry_run: bool,
+    wait: bool,
+    as_json: bool,
 ) -> None:
     """Submit a job and print what became of it; after a dry run print what would be submitted."""
     from facegen import farm
 
     engine = farm.ENGINES[job.engine]
-    for note in filter(None, (*engine.notes(job), job.memory_note)):
+    for note in filter(None, (*doubts, *engine.notes(job), job.memory_note)):
         say(f"facegen: {note}")
     table = {"job": job.name, "folder": str(job.folder), "tasks": len(job.chunks), "steps": list(job.steps)}
     if dry_run:
@@ -262,7 +270,9 @@ def _show_state(dataset: "Dataset", *, as_json: bool) -> int:
     from facegen import farm
 
     state = farm.farm_state(dataset)
-    table = {name: value for name, value in asdict(state).items() if name not in ("busy", "at_work")}
+    table = {
+        name: value for name, value in asdict(state).items() if name not in ("busy", "at_work", "unasked")
+    }
     if not as_json:
         unknown = {name: "unknown" for name in ("running", "waiting", "seconds_left") if table[name] is None}
         seconds_left = {} if state.seconds_left is None else {"seconds_left": f"{state.seconds_left:.0f}"}

@@ -40,7 +40,9 @@ class Resumption:
     postponed: tuple[str, ...]
 
 
-def plan_resumption(dataset: Dataset, *, retry_quarantined: bool = False) -> Resumption:
+def plan_resumption(
+    dataset: Dataset, *, retry_quarantined: bool = False, dry_run: bool = False
+) -> Resumption:
     """Look for what is missing, and for steps that any job left undone; writes nothing.
 
     Raises
@@ -48,7 +50,7 @@ def plan_resumption(dataset: Dataset, *, retry_quarantined: bool = False) -> Res
     InputError
         If the dataset was never submitted.
     Unanswered
-        If an engine does not say whether it is at tasks that it has.
+        If an engine does not say whether it is at tasks that it has, and this is no dry run.
     """
     jobs = {job.name: job for job in asked_jobs(dataset.folder)}
     if not jobs:
@@ -56,7 +58,7 @@ def plan_resumption(dataset: Dataset, *, retry_quarantined: bool = False) -> Res
             f"{dataset.folder.path}: was never submitted to a farm; begin with: facegen farm submit"
         )
     newest = list(jobs.values())[-1]
-    state = answered_state(dataset)
+    state = answered_state(dataset, dry_run=dry_run)
     # an older job may have been asked for more than the newest
     requests = list(dict.fromkeys((job.samples, job.shards) for job in jobs.values()))
     left = [

@@ -208,6 +208,44 @@ def test_of_an_engine_that_does_not_answer_nothing_is_submitted_twice(engine, tm
         assert not (out / "farm" / "job-002").exists()
 
 
+def test_a_dry_run_needs_no_answer_and_says_what_it_does_not_know(engine, tmp_path):
+    out = submit(tmp_path)
+    engine.doing["job-001"] = None
+    for words in (("submit", tmp_path / "spec.toml", "--out", out, "--engine", "slurm"), ("resume", out)):
+        done = farm(*words, "--dry-run", "--json")
+        assert (done.exit_code, json.loads(done.stdout)["tasks"]) == (0, 1)
+        assert "facegen: job-001: no answer says what these tasks are at" in done.stderr
+
+
+def test_an_engine_that_is_silent_for_good_does_not_hold_a_dataset_up(engine, tmp_path):
+    out = submit(tmp_path, "--steps", "generate,validate")
+    engine.doing["job-001"] = None
+    generate(open_dataset(out), workers=1)
+    record = out / "farm" / "job-001" / "submission.json"
+    refusal = nothing_more(out, "--steps", "pack").exception
+    assert isinstance(refusal, Unanswered), "the engine may be validating"
+    assert f"or remove {record} if it is gone for good" in str(refusal)
+    moved = tmp_path / "elsewhere" / "out"
+    shutil.copytree(out, moved)
+    record.unlink()
+    submit(tmp_path, "--steps", "pack", engine="openjd")
+    (moved / "farm" / "job-001" / "validate.done").touch()
+    submit(moved.parent, "--steps", "pack", engine="openjd")
+    assert not farm("submit", moved.parent / "spec.toml", "--out", moved, "--engine", "slurm").stderr.count(
+        "job-"
+    )
+
+
+def test_tasks_that_no_engine_can_be_asked_about_are_told(engine, tmp_path):
+    out = submit(tmp_path, engine="openjd")
+    told = "facegen: job-001: no engine can be asked what these tasks are at"
+    assert told in farm("submit", tmp_path / "spec.toml", "--out", out, "--engine", "openjd").stderr
+    assert "job-001, job-002: no engine" in farm("resume", out).stderr
+    generate(open_dataset(out), workers=1)
+    again = farm("submit", tmp_path / "spec.toml", "--out", out, "--engine", "openjd", "--steps", "validate")
+    assert (again.exit_code, "no engine" in again.stderr) == (0, False)
+
+
 @pytest.mark.parametrize("taken", [True, False])
 def test_records_of_what_failed_go_with_the_job_that_tries_again(engine, tmp_path, taken):
     out = submit(tmp_path, spec=SPEC + RENDERED)
