@@ -1,9 +1,10 @@
 """Resumes a dataset: the missing things that no engine is at become a new job, as the newest was submitted."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from facegen.errors import InputError
 from facegen.farm.job import STEPS, Job, asked_jobs
+from facegen.farm.sbatch_arguments import is_need
 from facegen.farm.state import FarmState, answered_state
 from facegen.farm.submission import Remaining, prepare, remaining
 from facegen.spec import format_ranges
@@ -98,8 +99,13 @@ def _together(dataset: Dataset, requests: list[tuple[str, str | None]]) -> tuple
 
 
 def prepare_resumption(dataset: Dataset, resumption: Resumption, *, chunk: int | None = None) -> Job:
-    """Write the new job as `facegen.farm.prepare` does; ``chunk`` is the number of samples a task."""
+    """Write the new job as `facegen.farm.prepare` does; ``chunk`` is the number of samples a task.
+
+    It gets the newest job's resources and arguments for sbatch, without what that job was to wait for.
+    """
     newest, steps = resumption.newest, resumption.steps
+    # what the newest job waited for, Slurm may know no more, and would cancel the new one for it
+    arguments = tuple(each for each in newest.resources.sbatch_args if not is_need(each))
     try:
         return prepare(
             dataset,
@@ -108,7 +114,7 @@ def prepare_resumption(dataset: Dataset, resumption: Resumption, *, chunk: int |
             steps=tuple(steps),
             samples=resumption.samples,
             shards=resumption.shards,
-            resources=newest.resources,
+            resources=replace(newest.resources, sbatch_args=arguments),
             chunk=chunk,
             packed=steps.get("pack", newest).packed,
             model=steps.get("train", steps.get("export", newest)).model,

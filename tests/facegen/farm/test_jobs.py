@@ -199,6 +199,15 @@ def test_a_narrower_job_does_not_narrow_what_is_resumed(engine, tmp_path):
         assert [chunk.samples for chunk in job.chunks if chunk.samples] == ["5-19"]
 
 
+@pytest.mark.parametrize("need", ["--dependency=afterok:7", "-dafterok:7", "--depend=afterok:7"])
+def test_what_a_job_waited_for_is_not_waited_for_again(engine, tmp_path, need):
+    """Slurm forgets jobs that have ended, and cancels what is to wait for one that it does not know."""
+    out = submit(tmp_path, "--sbatch-arg=--partition=cpu", f"--sbatch-arg={need}")
+    assert resume(out) == ("generate",)
+    arguments = [job.resources.sbatch_args for job in asked_jobs(DatasetFolder(out))]
+    assert arguments == [("--partition=cpu", need), ("--partition=cpu",)]
+
+
 def test_of_an_engine_that_does_not_answer_nothing_is_submitted_twice(engine, tmp_path):
     out = submit(tmp_path)
     engine.doing["job-001"] = None
