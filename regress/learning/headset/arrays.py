@@ -225,7 +225,7 @@ def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
     version = document.get("version")
     if version != VERSION:
         raise InputError(
-            f"{path} has version {version!r}; this version reads {VERSION}: pack the dataset again with facegen pack"
+            f"{path} has version {version!r}; this version reads {VERSION}: {pack_again(folder)}"
         )
     try:
         about = checked(_Description, document)
@@ -244,7 +244,7 @@ def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
         folder / "labels.parquet",
         columns,
         most_rows=about.rows,
-        damaged="pack the dataset again with facegen pack",
+        damaged=pack_again(folder),
     )
     if len(labels["sample"]) != about.rows:
         raise InputError(
@@ -263,11 +263,16 @@ def read_arrays(folder: str | os.PathLike[str]) -> HeadsetArrays:
     )
 
 
+def pack_again(folder: Path) -> str:
+    """What to do about a folder that is too old or damaged: ``facegen pack`` changes no file that is there."""
+    return f"pack the dataset again with facegen pack, into another folder or after {folder} is deleted"
+
+
 def _face(path: Path) -> FaceGeometry:
     arrays = load_npz(path)
     lacking = [name for name in ("displacement", "rest") if name not in arrays]
     if lacking:
-        raise InputError(f"{path} lacks the array {lacking[0]}; pack the dataset again with facegen pack")
+        raise InputError(f"{path} lacks the array {lacking[0]}; {pack_again(path.parent)}")
     displacement, rest = arrays["displacement"], arrays["rest"]
     shapes = {"displacement": (len(BLENDSHAPES), len(rest), 3), "rest": (len(rest), 3)} if rest.ndim else {}
     for name, array in (("displacement", displacement), ("rest", rest)):

@@ -1,6 +1,7 @@
 """Arrays of headset pictures: neutral pictures of the own and the other seat, what training leaves out, refusals."""
 
 import json
+import re
 import shutil
 from pathlib import Path
 
@@ -77,7 +78,9 @@ def test_pictures_of_another_size_are_refused(copy: Path):
 def test_another_version_is_refused(copy: Path):
     description = json.loads((copy / "arrays.json").read_text())
     (copy / "arrays.json").write_text(json.dumps({**description, "version": 1}))
-    with pytest.raises(InputError, match="version 1"):
+    with pytest.raises(
+        InputError, match=rf"version 1; .*another folder or after {re.escape(str(copy))} is deleted"
+    ):
         read_arrays(copy)
 
 

@@ -13,7 +13,7 @@ import torch
 
 from facegen.conventions import VIEW_POINTS
 from regress.errors import InputError, Interrupted
-from regress.learning.headset.arrays import HeadsetArrays
+from regress.learning.headset.arrays import HeadsetArrays, pack_again
 from regress.learning.headset.recipe import HeadsetRecipe
 from regress.learning.headset.training.batches import Batch, TrainingFrames
 from regress.learning.headset.training.checkpoint import read_checkpoint, save_checkpoint
@@ -249,8 +249,8 @@ def start_training(
     torch.manual_seed(recipe.seed)
     if recipe.camera_terms and not arrays.camera_terms:
         raise InputError(
-            f"{arrays.folder} does not say where cameras are, and camera_terms asks for it; pack the dataset again "
-            "with facegen pack"
+            f"{arrays.folder} does not say where cameras are, and camera_terms asks for it; "
+            f"{pack_again(arrays.folder)}"
         )
     rows = arrays.kept_rows("train", withhold=recipe.withhold, people=recipe.people)
     names = tuple(camera.name for camera in arrays.cameras)
