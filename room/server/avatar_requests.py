@@ -88,7 +88,10 @@ class AvatarRequests:
         except FormatError as error:
             raise web.HTTPUnprocessableEntity(text=f"{error}\n") from None
         except NotAllowed as error:
-            raise web.HTTPServiceUnavailable(text=f"{error}\n") from None
+            busy = web.HTTPServiceUnavailable if error.again else web.HTTPInsufficientStorage
+            raise busy(
+                text=f"{error}\n"
+            ) from None  # pages bring it again to who is busy, and not where it is full
         finally:
             self._uploading.remove(wearer)
 

@@ -207,12 +207,10 @@ class LiveRoom:
         Raises
         ------
         NotAllowed
-            If the server has no room for it; they wear the stand-in then.
+            If the server has no room for it; they go on to wear what they wore.
         """
-        try:
-            self.avatars.put_on(seat, content)
-        finally:
-            self._broadcast(Changed(person=seat.person))
+        self.avatars.put_on(seat, content)
+        self._broadcast(Changed(person=seat.person))
         return seat.own
 
     def _take_off(self, id: str) -> None:

@@ -39,9 +39,8 @@ class RoomAvatars:
         Raises
         ------
         NotAllowed
-            If the server has no room for it; they wear the stand-in then.
+            If the server has no room for it; they go on to wear what they wore.
         """
-        self.take_off(seat)
         seat.own = self._store.put(content, (self._room, seat.id))
 
     def take_off(self, seat: Seat) -> None:

@@ -4,13 +4,13 @@ import asyncio
 import hashlib
 import io
 import struct
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from room.avatars import AvatarStore, check_avatar
+from room.avatars import AvatarStore, check_avatar, digest_of
 from room.avatars.check import (
     MOST_AVATAR_BYTES,
     MOST_DOCUMENT_BYTES,
@@ -385,13 +385,41 @@ def test_the_store_keeps_each_avatar_once_and_no_more_than_it_may():
 
 @given(st.lists(st.tuples(st.sampled_from("abc"), st.integers(0, 20), st.integers(1, 40)), max_size=60))
 def test_no_room_keeps_others_from_the_store(brought):
-    """However three of them fill it, an eighth is left."""
+    """However three of them fill it, a sixteenth is left for a fourth, and who is refused wears what they wore."""
     store = AvatarStore(most_bytes=160)
+    worn: dict[tuple[str, str], bytes] = {}
     for number, (room, person, size) in enumerate(brought):
+        wearer, content = (room, str(person)), number.to_bytes(1, "little") * size
         with suppress(NotAllowed):
-            store.put(number.to_bytes(1, "little") * size, (room, str(person)))
-        assert store.kept_bytes <= 140
-    store.put(b"x" * 10, ("late", "ada"))
+            store.put(content, wearer)
+            worn[wearer] = content
+        assert store.kept_bytes == sum(map(len, worn.values())) <= 150
+        for (place, _), kept in worn.items():
+            assert store.get(digest_of(kept), place) == kept
+    store.put(b"x" * 5, ("late", "ada"))
+
+
+@given(st.lists(st.integers(1, 40), max_size=40))
+def test_a_room_alone_has_three_quarters_of_the_store(sizes):
+    store = AvatarStore(most_bytes=160)
+    for number, size in enumerate(sizes):
+        fits = store.kept_bytes + size <= 120
+        with nullcontext() if fits else pytest.raises(NotAllowed):
+            store.put(number.to_bytes(1, "little") * size, ("lab", str(number)))
+
+
+def test_who_brings_the_same_or_a_smaller_one_is_never_refused():
+    store = AvatarStore(most_bytes=160)
+    for number in range(4):
+        store.put(bytes([number]) * 30, ("lab", str(number)))
+    store.put(b"b" * 20, ("hall", "ben"))
+    with pytest.raises(NotAllowed) as told:
+        store.put(b"a" * 31, ("lab", "0"))
+    assert not told.value.again, "a page would bring 32 MiB twice a minute"
+    digest = store.put(bytes([0]) * 30, ("lab", "0"))
+    assert store.get(digest, "lab")
+    assert store.put(b"c" * 29, ("lab", "0")) != digest
+    assert store.get(digest, "lab") is None
 
 
 def _bearer(place: Place, guest: Guest | None = None, key: str = "") -> dict[str, str]:
@@ -472,6 +500,22 @@ def test_one_may_take_it_off_and_a_moderator_may_for_good():
         await ben.told(Left)
         again = await place.guest(secret=ada.secret)
         assert (await bring(place, again, avatar()))[0] == 403, "the same person, whom one click brought back"
+
+    meet(run)
+
+
+def test_who_finds_no_place_for_an_avatar_goes_on_to_wear_the_last_one(monkeypatch):
+    monkeypatch.setattr(
+        "room.server.application.AvatarStore", lambda: AvatarStore(most_bytes=2 * len(avatar()))
+    )
+
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        digest = (await bring(place, ada, avatar()))[1]
+        status, sentence = await bring(place, ada, avatar(_nodes(200)))
+        assert status == 507, "of 503 and 429 the page brings it again by itself, 32 MiB twice a minute"
+        assert "smaller" in sentence
+        assert (await place.guest(name="Cy")).welcome.people[0].own == digest
+        assert (await fetch(place, digest))[0] == 200
 
     meet(run)
 
