@@ -11,6 +11,7 @@ from typing import Any
 
 from room.errors import FormatError
 from room.gltf.document import Document, named
+from room.gltf.extensions import LIGHTS
 
 MOST_JOINTS = 20_000
 """Of all skins together: avatars have 20 to 300 bones, and some have a skin of all of them for each of 20 meshes."""
@@ -30,6 +31,9 @@ MOST_CHANNELS = 10_000
 
 MOST_SCENES = 16
 """One is seen; each is gone through."""
+
+MOST_LIGHTS = 64
+"""Lamps of all nodes: scenes of modellers have one to ten, and a graphics card counts each in every picture."""
 
 
 def check_moved(told: Document, drawn: Counter[int], parts: int, *, most_nodes: int) -> None:
@@ -78,6 +82,12 @@ def check_moved(told: Document, drawn: Counter[int], parts: int, *, most_nodes: 
             MOST_COLLISIONS,
             "joints of springs times colliders",
             "give its springs fewer colliders",
+        ),
+        (
+            sum(LIGHTS in node.extensions for node in told.nodes),
+            MOST_LIGHTS,
+            "lamps",
+            "export it without lights",
         ),
         (
             _binds(told, drawn, parts),

@@ -27,6 +27,7 @@ from room.gltf.moved import (
     MOST_CHANNELS,
     MOST_COLLISIONS,
     MOST_JOINTS,
+    MOST_LIGHTS,
     MOST_SCENES,
     MOST_SPRUNG,
 )
@@ -102,6 +103,8 @@ def _large_pictures(made: dict) -> None:
     made["images"] *= MOST_TEXTURE_PIXELS // MOST_SIDE_PIXELS**2 + 1
 
 
+LAMP = {"KHR_lights_punctual": {"light": 0}}
+
 LARGE = png(MOST_SIDE_PIXELS, MOST_SIDE_PIXELS, whole=False)
 
 REFUSED = {
@@ -129,7 +132,10 @@ REFUSED = {
         avatar(_at("nodes", 0, extensions={"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}})),
         "acts by itself",
     ),
-    "lights": (avatar(_at("nodes", 1, extensions={"KHR_lights_punctual": {"light": 0}})), "without lights"),
+    "many lamps": (
+        avatar(lambda made: made["nodes"].extend([{"extensions": LAMP}] * (MOST_LIGHTS + 1))),
+        "without lights",
+    ),
     "a shape of no mesh": (
         avatar(_at("meshes", 0, "primitives", 0, attributes={}, indices=1)),
         "moves other vertices",
@@ -353,6 +359,18 @@ def _usual(made: dict) -> None:
     }
     _springs(joints=500, colliders=20)(made)
     made["extensions"] |= {"VRM": old, **_expressions(morphTargetBinds=[{"node": 0, "index": 0}] * 500)}
+
+
+@pytest.mark.parametrize("declared", ["extensionsUsed", "extensionsRequired"])
+def test_an_avatar_with_a_modellers_lamps_is_taken(declared):
+    """Blender's export has the lamp of every new scene; the page keeps it dark."""
+
+    def lit(made: dict) -> None:
+        made["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}
+        made[declared] = ["KHR_lights_punctual"]
+        made["nodes"].extend([{"extensions": LAMP}] * 10)
+
+    check_avatar(avatar(lit))
 
 
 def test_rich_avatars_are_taken():
