@@ -558,10 +558,10 @@ def test_one_process_checks_all_and_another_begins_where_it_was_lost(monkeypatch
             with pytest.raises(FormatError, match=REFUSED[fault][1]):
                 await checks.check(REFUSED[fault][0])
         assert checks._process is first
-        first.kill()
-        with pytest.raises(FormatError, match="a simpler one"):
-            await checks.check(avatar())
-        await checks.check(avatar())
+        for gone in (0.0, 0.5):  # its end is noticed, or not yet
+            checks._process.kill()
+            await asyncio.sleep(gone)
+            await checks.check(avatar())  # who comes next has no part in it
         second = checks._process
         asked = asyncio.create_task(checks.check(textured(b"<svg>")))
         await asyncio.sleep(0)
@@ -660,6 +660,32 @@ def test_a_room_whose_people_all_send_slowly_keeps_no_other_room_from_it():
             await other.session.close()
         rest.set()
         assert {status for status, _ in await asyncio.gather(*sending)} == {422}
+
+    meet(run)
+
+
+def test_an_avatar_by_which_each_process_ends_is_refused(monkeypatch):
+    monkeypatch.setattr("room.server.avatar_checks._BEGIN", "import sys; sys.stdin.buffer.read(4)")
+
+    async def run() -> None:
+        checks = AvatarChecks()
+        for _ in range(2):
+            with pytest.raises(FormatError, match="a simpler one"):
+                await checks.check(avatar())
+        await checks.close()
+
+    asyncio.run(asyncio.wait_for(run(), 300))
+
+
+def test_where_no_process_begins_the_avatar_comes_again_later(monkeypatch):
+    async def no_more(*_: object, **__: object) -> None:
+        raise BlockingIOError
+
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        with monkeypatch.context() as full:
+            full.setattr("asyncio.create_subprocess_exec", no_more)
+            assert (await bring(place, ada, avatar()))[0] == 503
+        assert (await bring(place, ada, avatar()))[0] == 200
 
     meet(run)
 
