@@ -178,7 +178,7 @@ REFUSED = {
     "old springs of many colliders": (avatar(_old_springs(colliders=MOST_SPRUNG + 1)), "fewer bones springs"),
     "old springs again and again": (avatar(_old_springs(bones=[0] * 3_000)), "fewer bones springs"),
     "old springs beside many colliders": (
-        avatar(_old_springs(bones=[0] * 10, colliders=100, named=[0] * 60)),
+        avatar(_old_springs(bones=[0] * 10, colliders=100, named=[0] * 200)),
         "fewer colliders",
     ),
     "old springs of a bone by its text": (avatar(_old_springs(bones=["0"])), "no whole number"),
@@ -371,6 +371,28 @@ def test_an_avatar_with_a_modellers_lamps_is_taken(declared):
         made["nodes"].extend([{"extensions": LAMP}] * 10)
 
     check_avatar(avatar(lit))
+
+
+def _many_springs_of_0(made: dict) -> None:
+    """Hair and clothes of VRM 0: all below a bone springs with it, beside colliders of the whole body."""
+    made["nodes"] += [{} for _ in range(899)]
+    made["nodes"][1]["children"] = [*range(2, 901)]
+    _old_springs(bones=[1], colliders=56)(made)
+
+
+def _old_springs_of_no_node(made: dict) -> None:
+    _old_springs(bones=[1.0, -1, None], named=[0.0, 1, -1])(made)
+    springs = made["extensions"]["VRM"]["secondaryAnimation"]
+    springs["colliderGroups"] += [{"node": -1, "colliders": [{}]}, {"colliders": [{}]}, {"node": 1.0}]
+
+
+def _shapes_with_tangents(made: dict) -> None:
+    made["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 1, "TANGENT": 1}]
+
+
+@pytest.mark.parametrize("usual", [_many_springs_of_0, _old_springs_of_no_node, _shapes_with_tangents])
+def test_what_exporters_write_is_taken(usual):
+    check_avatar(avatar(usual))
 
 
 def test_rich_avatars_are_taken():
