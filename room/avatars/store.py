@@ -62,6 +62,14 @@ class AvatarStore:
         self._kept.setdefault(digest, _Kept(content)).wearers.add(wearer)
         return digest
 
+    def fits(self, size: int, wearer: Wearer) -> bool:
+        """Whether an avatar of so many bytes that is not kept yet would be taken."""
+        try:
+            self._refuse_full(size, wearer)
+        except NotAllowed:
+            return False
+        return True
+
     def _refuse_full(self, more: int, wearer: Wearer) -> None:
         """Refuse so many bytes more in place of what somebody wears alone; no more than that is always taken."""
         room = wearer[0]
