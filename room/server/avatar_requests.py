@@ -24,7 +24,7 @@ UPLOAD_S = 120.0
 """For one file: the largest at 2.3 Mbit/s."""
 
 REFUSED_S = 120.0
-"""What came from another server and was refused is not asked for so long: pages ask again after two seconds and five."""
+"""What came from another server and was refused is not asked for so long; pages ask again after two seconds."""
 
 _BEARER = re.compile(r"Bearer ([A-Za-z0-9_-]{22})(?:\.([A-Za-z0-9_-]{22,64}))?")
 DIGEST = re.compile(r"[0-9a-f]{64}")
