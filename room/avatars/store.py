@@ -8,7 +8,11 @@ from room.errors import NotAllowed
 MOST_KEPT_BYTES = 512 * 1024**2
 """Of all own avatars of one server together: 16 of the largest, or some fifty of usual ones.
 
-No room takes more than it leaves to all others: one alone has half, and a second one half of what is left."""
+Where several rooms keep some, none takes more than it leaves to all others. A room alone has `ALONE` of them."""
+
+ALONE = 3 / 4
+"""Of all bytes for the only room that keeps any: a server with one room has 38 people in avatars of 10 MiB, and a
+second room finds a place."""
 
 Wearer = tuple[str, str]
 """A room's name and a person's id."""
@@ -49,25 +53,41 @@ class AvatarStore:
         Raises
         ------
         NotAllowed
-            If there is no room for it, or their room has its share; they wear none then.
+            If there is no room for it, or their room has its share; they go on to wear what they wore.
         """
-        self.drop(wearer)
         digest = digest_of(content)
         if digest not in self._kept:
-            left = self._most_bytes - self.kept_bytes - len(content)
-            if left < 0:
-                raise NotAllowed(
-                    "this server keeps as many own avatars as it can; try again later", again=True
-                )
-            if self._bytes_of(wearer[0]) + len(content) > left:
-                raise NotAllowed(
-                    "this room has its share of the own avatars that this server keeps; bring a smaller one, or "
-                    "try again later",
-                    again=True,
-                )
-            self._kept[digest] = _Kept(content)
-        self._kept[digest].wearers.add(wearer)
+            self._refuse_full(len(content), wearer)
+        self.drop(wearer, but=digest)
+        self._kept.setdefault(digest, _Kept(content)).wearers.add(wearer)
         return digest
+
+    def fits(self, size: int, wearer: Wearer) -> bool:
+        """Whether an avatar of so many bytes that is not kept yet would be taken."""
+        try:
+            self._refuse_full(size, wearer)
+        except NotAllowed:
+            return False
+        return True
+
+    def _refuse_full(self, more: int, wearer: Wearer) -> None:
+        """Refuse so many bytes more in place of what somebody wears alone; no more than that is always taken."""
+        room = wearer[0]
+        freed = sum(len(kept.content) for kept in self._kept.values() if kept.wearers == {wearer})
+        if more <= freed:
+            return
+        mine = self._bytes_of(room) - freed + more
+        kept = self.kept_bytes - freed + more
+        if kept > self._most_bytes:
+            raise NotAllowed(
+                "this server keeps as many own avatars as it can; bring a smaller one, or this one later"
+            )
+        alone = all(place == room for kept in self._kept.values() for place, _ in kept.wearers)
+        if mine > (self._most_bytes * ALONE if alone else self._most_bytes - kept):
+            raise NotAllowed(
+                "this room has its share of the own avatars that this server keeps; bring a smaller one, or this one "
+                "later"
+            )
 
     def _bytes_of(self, room: str) -> int:
         return sum(
@@ -89,9 +109,11 @@ class AvatarStore:
                 if place == room and worn.get(id) != digest:
                     self.drop((room, id))
 
-    def drop(self, wearer: Wearer) -> None:
-        """Forget what somebody wears, and its bytes if nobody else does."""
+    def drop(self, wearer: Wearer, *, but: str = "") -> None:
+        """Forget what somebody wears, ``but`` one digest, and its bytes if nobody else does."""
         for digest, kept in list(self._kept.items()):
+            if digest == but:
+                continue
             kept.wearers.discard(wearer)
             if not kept.wearers:
                 del self._kept[digest]

@@ -89,6 +89,7 @@ class Node(_Record):
 
     mesh: Index | None = None
     children: list[Index] = []
+    extensions: dict[str, Any] = {}
 
 
 class Skin(_Record):

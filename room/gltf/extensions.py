@@ -9,12 +9,15 @@ from collections.abc import Iterable
 
 from room.errors import FormatError
 
+LIGHTS = "KHR_lights_punctual"
+"""Which stay dark in avatars, and shine in places."""
+
 READ = frozenset(
     """
-    KHR_materials_anisotropy KHR_materials_clearcoat KHR_materials_dispersion KHR_materials_emissive_strength
-    KHR_materials_ior KHR_materials_iridescence KHR_materials_sheen KHR_materials_specular
-    KHR_materials_transmission KHR_materials_unlit KHR_materials_volume KHR_mesh_quantization
-    KHR_texture_transform EXT_texture_webp
+    KHR_lights_punctual KHR_materials_anisotropy KHR_materials_clearcoat KHR_materials_dispersion
+    KHR_materials_emissive_strength KHR_materials_ior KHR_materials_iridescence KHR_materials_sheen
+    KHR_materials_specular KHR_materials_transmission KHR_materials_unlit KHR_materials_volume
+    KHR_mesh_quantization KHR_texture_transform EXT_texture_webp
     """.split()
 )
 """What every file may require: the page's reader knows it, and it needs nothing from outside."""
@@ -25,9 +28,6 @@ VRM = frozenset(
     """.split()
 )
 """What an avatar may require beside these."""
-
-LIGHTS = frozenset({"KHR_lights_punctual"})
-"""What a place may require beside these."""
 
 HOW = {
     "KHR_draco_mesh_compression": "export it without Draco compression",
@@ -50,7 +50,7 @@ def check_extensions(used: Iterable[str], required: Iterable[str], *, read: froz
     required
         Without which the file is another one.
     read
-        What this kind of file may require. Lights that it may not require are refused, as they shine on everybody.
+        What this kind of file may require.
 
     Raises
     ------
@@ -59,10 +59,6 @@ def check_extensions(used: Iterable[str], required: Iterable[str], *, read: froz
     """
     required = tuple(required)
     for name in (*used, *required):
-        if name in LIGHTS - read:
-            raise FormatError(
-                f"has {name}, by which it lights others and their room; export it without lights"
-            )
         if any(word in name.lower() for word in ACTING):
             raise FormatError(f"has {name[:60]}, by which a file acts by itself; export it without")
     for name in required:

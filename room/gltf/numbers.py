@@ -10,6 +10,9 @@ MOST_NUMBERS = 60_000_000
 """In all that a browser makes arrays of, zeros that cost the file nothing among them, and as often as it does: 240 MB.
 Our avatars have 2,400,000, nearly all for 52 shapes; VRMs draw ten parts from the same shapes."""
 
+_LAID_OUT = {"POSITION", "NORMAL", "COLOR_0"}
+"""What the page's reader takes of shapes; tangents of them it leaves alone."""
+
 COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 """Numbers of each kind of value."""
 
@@ -42,7 +45,7 @@ def _numbers(accessor: Accessor) -> int:
 
 def _shaped(told: Document, primitive: Primitive) -> int:
     """Numbers of a primitive's shapes: what one of them moves is laid out for all, also where it is not given."""
-    words = set(chain.from_iterable(primitive.targets))
+    words = set(chain.from_iterable(primitive.targets)) & _LAID_OUT
     if not words:
         return 0
     counts = {

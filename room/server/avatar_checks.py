@@ -5,7 +5,7 @@ import sys
 from asyncio.subprocess import DEVNULL, PIPE, Process
 
 from room.avatars.examiner import LENGTH_BYTES, framed
-from room.errors import FormatError
+from room.errors import FormatError, NotAllowed
 
 CHECK_S = 60.0
 """For one avatar; the worst take two seconds, and a process begins in half of one where the machine has other work."""
@@ -27,6 +27,8 @@ class AvatarChecks:
         ------
         FormatError
             As `room.avatars.check_avatar`, or if the other process ended or took too long.
+        NotAllowed
+            If the system begins no other process now.
         """
         async with self._one:
             wrong = None
@@ -53,10 +55,21 @@ class AvatarChecks:
             await process.communicate()
 
     async def _ask(self, content: bytes) -> str:
+        """What is wrong with an avatar; it is asked once more where the process had ended since the last one."""
+        if self._process and self._process.returncode is not None:
+            await self.close()
+        used = self._process is not None
+        try:
+            return await self._ask_once(content)
+        except (asyncio.IncompleteReadError, ConnectionError) as error:
+            if not used or getattr(error, "partial", b""):
+                raise
+        await self.close()
+        return await self._ask_once(content)
+
+    async def _ask_once(self, content: bytes) -> str:
         if self._process is None:
-            self._process = await asyncio.create_subprocess_exec(
-                sys.executable, "-c", _BEGIN, *sys.path, stdin=PIPE, stdout=PIPE, stderr=DEVNULL
-            )
+            self._process = await _begun()
         process: Process = self._process
         assert process.stdin is not None
         assert process.stdout is not None
@@ -64,3 +77,14 @@ class AvatarChecks:
         await process.stdin.drain()
         length = int.from_bytes(await process.stdout.readexactly(LENGTH_BYTES), "little")
         return (await process.stdout.readexactly(length)).decode()
+
+
+async def _begun() -> Process:
+    try:
+        return await asyncio.create_subprocess_exec(
+            sys.executable, "-c", _BEGIN, *sys.path, stdin=PIPE, stdout=PIPE, stderr=DEVNULL
+        )
+    except OSError:  # no memory, or as many processes as there may be
+        raise NotAllowed(
+            "no avatar can be checked at this moment; try again in a minute", again=True
+        ) from None

@@ -23,6 +23,9 @@ from room.state import Seat, identity
 UPLOAD_S = 120.0
 """For one file: the largest at 2.3 Mbit/s."""
 
+REFUSED_S = 120.0
+"""What came from another server and was refused is not asked for so long; pages ask again after two seconds."""
+
 _BEARER = re.compile(r"Bearer ([A-Za-z0-9_-]{22})(?:\.([A-Za-z0-9_-]{22,64}))?")
 DIGEST = re.compile(r"[0-9a-f]{64}")
 
@@ -51,6 +54,7 @@ class AvatarRequests:
     ) -> None:
         self._keys, self._store, self._room_of, self._origins = keys, store, room_of, origins
         self._uploading: set[tuple[str, str]] = set()
+        self._refused: dict[str, float] = {}
         self._checks, self._checking = AvatarChecks(), asyncio.Lock()
 
     async def take(self, request: web.Request) -> web.Response:
@@ -88,7 +92,10 @@ class AvatarRequests:
         except FormatError as error:
             raise web.HTTPUnprocessableEntity(text=f"{error}\n") from None
         except NotAllowed as error:
-            raise web.HTTPServiceUnavailable(text=f"{error}\n") from None
+            busy = web.HTTPServiceUnavailable if error.again else web.HTTPInsufficientStorage
+            raise busy(
+                text=f"{error}\n"
+            ) from None  # pages bring it again to who is busy, and not where it is full
         finally:
             self._uploading.remove(wearer)
 
@@ -110,6 +117,10 @@ class AvatarRequests:
 
     async def _transferred(self, digest: str, room: LiveRoom | None) -> bytes | None:
         """From another server of the room, checked as if it had been brought here; None where that cannot be."""
+        now = asyncio.get_running_loop().time()
+        self._refused = {each: until for each, until in self._refused.items() if until > now}
+        if digest in self._refused:
+            return None
         content = await room.avatars.transferred(digest) if room else None
         if room is None or content is None:
             return None
@@ -119,6 +130,7 @@ class AvatarRequests:
                     await self._checks.check(content)
                     room.avatars.keep(digest, content)
         except (FormatError, NotAllowed):
+            self._refused[digest] = now + REFUSED_S
             return None
         return self._store.get(digest, room.name)
 

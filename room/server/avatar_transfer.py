@@ -1,6 +1,7 @@
 """Fetches own avatars from the server that took them: on asking, once, in pieces, from memory to memory."""
 
 import asyncio
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from room.avatars import AvatarStore
@@ -38,13 +39,14 @@ class AvatarTransfer:
         self._few = asyncio.Semaphore(MOST_TRANSFERS)
         channels.listen(self._hear)
 
-    async def fetch(self, room: str, digest: str) -> bytes | None:
+    async def fetch(self, room: str, digest: str, fits: Callable[[int], bool]) -> bytes | None:
         """An avatar that somebody wears in a room by another process; None where none of them sends it.
 
-        Whoever asks while it is on its way waits for the same.
+        Whoever asks while it is on its way waits for the same. Of one whose length does not fit, nothing comes but the
+        first piece, which says it.
         """
         if digest not in self._transferring:
-            task = self._transferring[digest] = asyncio.create_task(self._transfer(room, digest))
+            task = self._transferring[digest] = asyncio.create_task(self._transfer(room, digest, fits))
             task.add_done_callback(lambda _: self._transferring.pop(digest))
         return await asyncio.shield(self._transferring[digest])
 
@@ -54,12 +56,14 @@ class AvatarTransfer:
         if avatar is not None and wanted.at < len(avatar):
             self._channels.say(f"/{wanted.process}", pack_piece(wanted.digest, avatar, wanted.at))
 
-    async def _transfer(self, room: str, digest: str) -> bytes | None:
+    async def _transfer(self, room: str, digest: str, fits: Callable[[int], bool]) -> bytes | None:
         avatar, total = bytearray(), 1
         async with self._few:
             while len(avatar) < total:
                 piece = await self._piece(room, digest, len(avatar))
                 if piece is None or (avatar and piece.total != total):
+                    return None
+                if not avatar and not fits(piece.total):
                     return None
                 avatar, total = avatar + piece.content, piece.total
         return bytes(avatar) if digest_of(avatar) == digest else None

@@ -1,7 +1,9 @@
 """Sends what is large in pieces, as fast as it is taken: who asks for many files and reads nothing takes no memory."""
 
 import asyncio
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Coroutine
+from typing import Any
+from weakref import WeakValueDictionary
 
 from aiohttp import web
 
@@ -12,13 +14,21 @@ PIECE_BYTES = 64 * 1024
 """Written at once; the next piece goes once the network has taken nearly all. What is smaller goes whole."""
 
 SLOWEST_BYTES_PER_S = 16 * 1024
-"""Who takes less of a body is cut: a meeting needs ten times as much."""
+"""Whose network takes less of all its bodies together is cut: a meeting needs ten times as much. One of six files that
+share a slow link takes a sixth of it, and would else be cut and asked for again without end."""
 
 PATIENCE_S = 30.0
-"""For any body beside that: a telephone's change of networks takes ten seconds."""
+"""Beside that: a telephone's change of networks takes ten seconds."""
 
 _LOOK_S = 0.05
 """Between looks whether the last piece has gone."""
+
+
+class _Network:
+    """How much the people of one network have taken while bodies went there."""
+
+    def __init__(self) -> None:
+        self.taken_bytes = 0
 
 
 class Bodies:
@@ -29,6 +39,7 @@ class Bodies:
 
     def __init__(self) -> None:
         self._going = PendingConnections(most=MOST_BODIES)
+        self._networks: WeakValueDictionary[str, _Network] = WeakValueDictionary()
 
     @web.middleware
     async def pace(
@@ -46,12 +57,11 @@ class Bodies:
         ):
             return answer
         going = self._going.add(request.remote, transport.abort)
+        network = self._networks.setdefault(going.origin, _Network())
         response = web.StreamResponse(status=answer.status, headers=answer.headers)
         response.content_length = len(body)
         try:
-            await asyncio.wait_for(
-                _write(request, response, transport, body), PATIENCE_S + len(body) / SLOWEST_BYTES_PER_S
-            )
+            await _in_time(_write(request, response, transport, body, network), network)
         except asyncio.TimeoutError:
             transport.abort()
         except ConnectionError:  # they have gone, or gave way: no fault of this server's
@@ -61,12 +71,41 @@ class Bodies:
         return response
 
 
+async def _in_time(writing: Coroutine[Any, Any, None], network: _Network) -> None:
+    """Wait until a body is written.
+
+    Raises
+    ------
+    asyncio.TimeoutError
+        If its network takes too little meanwhile.
+    """
+    now = asyncio.get_running_loop().time
+    begun_s, before_bytes = now(), network.taken_bytes
+    task = asyncio.ensure_future(writing)
+    try:
+        while not task.done():
+            patience_s = PATIENCE_S + (network.taken_bytes - before_bytes) / SLOWEST_BYTES_PER_S
+            left_s = begun_s + patience_s - now()
+            if left_s <= 0:
+                raise asyncio.TimeoutError
+            await asyncio.wait({task}, timeout=left_s)
+        task.result()
+    finally:
+        task.cancel()
+
+
 async def _write(
-    request: web.Request, response: web.StreamResponse, transport: asyncio.WriteTransport, body: bytes
+    request: web.Request,
+    response: web.StreamResponse,
+    transport: asyncio.WriteTransport,
+    body: bytes,
+    network: _Network,
 ) -> None:
     await response.prepare(request)
     whole = memoryview(body)
     for at in range(0, len(whole), PIECE_BYTES):
-        await response.write(whole[at : at + PIECE_BYTES])
+        piece = whole[at : at + PIECE_BYTES]
+        await response.write(piece)
+        network.taken_bytes += len(piece)
     while transport.get_write_buffer_size():  # else who leaves the last piece would be waited for without end
         await asyncio.sleep(_LOOK_S)

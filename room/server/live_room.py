@@ -132,6 +132,7 @@ class LiveRoom:
             As `room.state.Meeting.enter`, or if people come in so often that others hear of nothing else.
         """
         self._join_limit.count(join, self.meeting, moderator=moderator)
+        named = {person.id: person.name for person in self.meeting.people}
         seat = self.meeting.enter(join, moderator=moderator)
         self._connections.enter(seat.id, join.role, connection)
         page = join.role == "page"
@@ -160,6 +161,9 @@ class LiveRoom:
             if self._replay:
                 connection.say(self._replay.playing(now=time.monotonic()))
             self._broadcast(Changed(person=seat.person), but=seat)
+            for person in self.meeting.people:  # who lost their name to this one
+                if person.id != seat.id and person.name != named[person.id]:
+                    self._broadcast(Changed(person=person), but=seat)
             if self._peers:
                 self._peers.entered()
             self._calls.begin(seat, connection.say)
@@ -207,12 +211,10 @@ class LiveRoom:
         Raises
         ------
         NotAllowed
-            If the server has no room for it; they wear the stand-in then.
+            If the server has no room for it; they go on to wear what they wore.
         """
-        try:
-            self.avatars.put_on(seat, content)
-        finally:
-            self._broadcast(Changed(person=seat.person))
+        self.avatars.put_on(seat, content)
+        self._broadcast(Changed(person=seat.person))
         return seat.own
 
     def _take_off(self, id: str) -> None:

@@ -18,6 +18,7 @@ from room.server.room_voices import RoomVoices
 from room.server.turn import Relays
 from room.server.voice_room import instance_of, voice_room
 from room.state.kept_rulings import KeptRulings
+from room.state.meeting import MOST_BEYOND
 
 if TYPE_CHECKING:  # needs an extra of its own
     from room.server.redis_channels import RedisChannels
@@ -143,5 +144,5 @@ class LiveRooms:
         if not self._engines:
             return None
         # a person who comes back may stand in Janus's list a second time for a moment
-        room = voice_room(self._secret, name, places=2 * self._limits.people)
+        room = voice_room(self._secret, name, places=2 * (self._limits.people + MOST_BEYOND))
         return RoomVoices(instance_of(name, self._engines), room)

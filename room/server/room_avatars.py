@@ -39,9 +39,8 @@ class RoomAvatars:
         Raises
         ------
         NotAllowed
-            If the server has no room for it; they wear the stand-in then.
+            If the server has no room for it; they go on to wear what they wore.
         """
-        self.take_off(seat)
         seat.own = self._store.put(content, (self._room, seat.id))
 
     def take_off(self, seat: Seat) -> None:
@@ -58,9 +57,16 @@ class RoomAvatars:
         return self._store.get(seat.own, self._room) is not None
 
     async def transferred(self, digest: str) -> bytes | None:
-        """An own avatar that another process of this room took; it was not checked here."""
-        worn = any(seat.own == digest and self._is_away(seat) for seat in self._meeting.seats)
-        return await self._transfer.fetch(self._room, digest) if self._transfer and worn else None
+        """An own avatar that another process of this room took and that fits here; it was not checked here."""
+        wearer = next(
+            (seat for seat in self._meeting.seats if seat.own == digest and self._is_away(seat)), None
+        )
+        if self._transfer is None or wearer is None:
+            return None
+        id = wearer.id
+        return await self._transfer.fetch(
+            self._room, digest, lambda size: self._store.fits(size, (self._room, id))
+        )
 
     def keep(self, digest: str, content: bytes) -> None:
         """Keep an avatar of another process that was checked, for as long as its people wear it.

@@ -132,12 +132,32 @@ class Meeting:
             self._seats[id] = seat
         if seat.shares and seat.visit != join.visit:  # the page that showed something is gone
             self.screen("")
-        seat.name = free_name(join.name, taken=[other.name for other in self.seats if other is not seat])
+        self._name(seat, join.name, moderator=moderator)
         seat.avatar, seat.visit, seat.moderator = join.avatar, join.visit, moderator
         seat.gone_at, seat.voice = None, False
         # another process may have them, and not have told yet: their own clock then says which coming is the later one
         seat.home, seat.entry = self.process, max(seat.entry + 1, join.at_ms)
         return seat
+
+    def _name(self, seat: Seat, wish: str, *, moderator: bool) -> None:
+        """Let somebody have a name that no other has, or give those who lose it to them a number behind it.
+
+        Moderators keep theirs, and take one from guests. Guests take one from guests who have gone: these may be
+        themselves, of a browser that forgot who they were.
+        """
+        others = [other for other in self.seats if other is not seat]
+        losing = [
+            other
+            for other in others
+            if other.home == self.process  # another process names its own people
+            and not (other.moderator or other.replayed)
+            and (moderator or other.gone_at is not None)
+        ]
+        seat.name = free_name(wish, taken=[other.name for other in others if other not in losing])
+        if seat.name != wish:  # a number behind it is nobody's wish: none loses theirs to it
+            seat.name = free_name(wish, taken=[other.name for other in others])
+        for loser in losing:
+            loser.name = free_name(loser.name, taken=[each.name for each in self.seats if each is not loser])
 
     def _refuse_full(self, *, moderator: bool) -> None:
         most = min(self.most_people + MOST_BEYOND, MOST_RESIDENTS) if moderator else self.most_people

@@ -177,6 +177,26 @@ def test_who_takes_an_answer_too_slowly_is_cut(monkeypatch):
         asyncio.run(run())
 
 
+def test_who_takes_little_beside_much_of_the_same_network_is_not_cut(monkeypatch):
+    """Files of one person share a slow link, and each alone takes too little of it."""
+    monkeypatch.setattr("room.server.bodies.PATIENCE_S", 0.5)
+    monkeypatch.setattr("room.server.bodies.SLOWEST_BYTES_PER_S", len(LARGE) / 2)
+
+    async def run() -> None:
+        async with listening() as place:
+            await asking(place, stack)
+            end, whole = asyncio.get_running_loop().time() + 3, {"Accept-Encoding": "identity"}
+            while asyncio.get_running_loop().time() < end:
+                async with place.session.get(
+                    f"{place.address}/room/meeting/place.glb", headers=whole
+                ) as answer:
+                    assert await answer.read() == LARGE
+            assert sum(transport.get_write_buffer_size() > 0 for transport in place.transports()) == 1
+
+    with ExitStack() as stack:
+        asyncio.run(run())
+
+
 def test_of_too_many_answers_the_oldest_gives_way(monkeypatch):
     monkeypatch.setattr("room.server.bodies.MOST_BODIES", 2)
 

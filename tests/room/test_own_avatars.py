@@ -4,13 +4,15 @@ import asyncio
 import hashlib
 import io
 import struct
-from contextlib import suppress
+from collections.abc import Callable
+from contextlib import nullcontext, suppress
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from room.avatars import AvatarStore, check_avatar
+from room.avatars import AvatarStore, check_avatar, digest_of
 from room.avatars.check import (
     MOST_AVATAR_BYTES,
     MOST_DOCUMENT_BYTES,
@@ -27,14 +29,21 @@ from room.gltf.moved import (
     MOST_CHANNELS,
     MOST_COLLISIONS,
     MOST_JOINTS,
+    MOST_LIGHTS,
     MOST_SCENES,
     MOST_SPRUNG,
 )
 from room.gltf.numbers import MOST_NUMBERS
+from room.protocol.accounts import Wanted
 from room.protocol.answers import Changed, Left, Notice
+from room.server import new_keys
 from room.server.application import STATIC
 from room.server.avatar_checks import AvatarChecks
+from room.server.avatar_requests import AvatarRequests
+from room.server.avatar_transfer import AvatarTransfer
 from room.server.limits import MOST_UPLOADS_A_ROOM, UPLOADS_BURST
+from room.server.room_avatars import RoomAvatars
+from room.state import Meeting
 from tests.room.avatars import BINARY, POINTS, avatar, png, textured
 from tests.room.guests import Guest, Place, open_room
 
@@ -102,6 +111,8 @@ def _large_pictures(made: dict) -> None:
     made["images"] *= MOST_TEXTURE_PIXELS // MOST_SIDE_PIXELS**2 + 1
 
 
+LAMP = {"KHR_lights_punctual": {"light": 0}}
+
 LARGE = png(MOST_SIDE_PIXELS, MOST_SIDE_PIXELS, whole=False)
 
 REFUSED = {
@@ -129,7 +140,10 @@ REFUSED = {
         avatar(_at("nodes", 0, extensions={"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}})),
         "acts by itself",
     ),
-    "lights": (avatar(_at("nodes", 1, extensions={"KHR_lights_punctual": {"light": 0}})), "without lights"),
+    "many lamps": (
+        avatar(lambda made: made["nodes"].extend([{"extensions": LAMP}] * (MOST_LIGHTS + 1))),
+        "without lights",
+    ),
     "a shape of no mesh": (
         avatar(_at("meshes", 0, "primitives", 0, attributes={}, indices=1)),
         "moves other vertices",
@@ -172,7 +186,7 @@ REFUSED = {
     "old springs of many colliders": (avatar(_old_springs(colliders=MOST_SPRUNG + 1)), "fewer bones springs"),
     "old springs again and again": (avatar(_old_springs(bones=[0] * 3_000)), "fewer bones springs"),
     "old springs beside many colliders": (
-        avatar(_old_springs(bones=[0] * 10, colliders=100, named=[0] * 60)),
+        avatar(_old_springs(bones=[0] * 10, colliders=100, named=[0] * 200)),
         "fewer colliders",
     ),
     "old springs of a bone by its text": (avatar(_old_springs(bones=["0"])), "no whole number"),
@@ -355,6 +369,40 @@ def _usual(made: dict) -> None:
     made["extensions"] |= {"VRM": old, **_expressions(morphTargetBinds=[{"node": 0, "index": 0}] * 500)}
 
 
+@pytest.mark.parametrize("declared", ["extensionsUsed", "extensionsRequired"])
+def test_an_avatar_with_a_modellers_lamps_is_taken(declared):
+    """Blender's export has the lamp of every new scene; the page keeps it dark."""
+
+    def lit(made: dict) -> None:
+        made["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point"}]}}
+        made[declared] = ["KHR_lights_punctual"]
+        made["nodes"].extend([{"extensions": LAMP}] * 10)
+
+    check_avatar(avatar(lit))
+
+
+def _many_springs_of_0(made: dict) -> None:
+    """Hair and clothes of VRM 0: all below a bone springs with it, beside colliders of the whole body."""
+    made["nodes"] += [{} for _ in range(899)]
+    made["nodes"][1]["children"] = [*range(2, 901)]
+    _old_springs(bones=[1], colliders=56)(made)
+
+
+def _old_springs_of_no_node(made: dict) -> None:
+    _old_springs(bones=[1.0, -1, None], named=[0.0, 1, -1])(made)
+    springs = made["extensions"]["VRM"]["secondaryAnimation"]
+    springs["colliderGroups"] += [{"node": -1, "colliders": [{}]}, {"colliders": [{}]}, {"node": 1.0}]
+
+
+def _shapes_with_tangents(made: dict) -> None:
+    made["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 1, "TANGENT": 1}]
+
+
+@pytest.mark.parametrize("usual", [_many_springs_of_0, _old_springs_of_no_node, _shapes_with_tangents])
+def test_what_exporters_write_is_taken(usual):
+    check_avatar(avatar(usual))
+
+
 def test_rich_avatars_are_taken():
     check_avatar(avatar(_usual))
 
@@ -385,13 +433,41 @@ def test_the_store_keeps_each_avatar_once_and_no_more_than_it_may():
 
 @given(st.lists(st.tuples(st.sampled_from("abc"), st.integers(0, 20), st.integers(1, 40)), max_size=60))
 def test_no_room_keeps_others_from_the_store(brought):
-    """However three of them fill it, an eighth is left."""
+    """However three of them fill it, a sixteenth is left for a fourth, and who is refused wears what they wore."""
     store = AvatarStore(most_bytes=160)
+    worn: dict[tuple[str, str], bytes] = {}
     for number, (room, person, size) in enumerate(brought):
+        wearer, content = (room, str(person)), number.to_bytes(1, "little") * size
         with suppress(NotAllowed):
-            store.put(number.to_bytes(1, "little") * size, (room, str(person)))
-        assert store.kept_bytes <= 140
-    store.put(b"x" * 10, ("late", "ada"))
+            store.put(content, wearer)
+            worn[wearer] = content
+        assert store.kept_bytes == sum(map(len, worn.values())) <= 150
+        for (place, _), kept in worn.items():
+            assert store.get(digest_of(kept), place) == kept
+    store.put(b"x" * 5, ("late", "ada"))
+
+
+@given(st.lists(st.integers(1, 40), max_size=40))
+def test_a_room_alone_has_three_quarters_of_the_store(sizes):
+    store = AvatarStore(most_bytes=160)
+    for number, size in enumerate(sizes):
+        fits = store.kept_bytes + size <= 120
+        with nullcontext() if fits else pytest.raises(NotAllowed):
+            store.put(number.to_bytes(1, "little") * size, ("lab", str(number)))
+
+
+def test_who_brings_the_same_or_a_smaller_one_is_never_refused():
+    store = AvatarStore(most_bytes=160)
+    for number in range(4):
+        store.put(bytes([number]) * 30, ("lab", str(number)))
+    store.put(b"b" * 20, ("hall", "ben"))
+    with pytest.raises(NotAllowed) as told:
+        store.put(b"a" * 31, ("lab", "0"))
+    assert not told.value.again, "a page would bring 32 MiB twice a minute"
+    digest = store.put(bytes([0]) * 30, ("lab", "0"))
+    assert store.get(digest, "lab")
+    assert store.put(b"c" * 29, ("lab", "0")) != digest
+    assert store.get(digest, "lab") is None
 
 
 def _bearer(place: Place, guest: Guest | None = None, key: str = "") -> dict[str, str]:
@@ -476,6 +552,22 @@ def test_one_may_take_it_off_and_a_moderator_may_for_good():
     meet(run)
 
 
+def test_who_finds_no_place_for_an_avatar_goes_on_to_wear_the_last_one(monkeypatch):
+    monkeypatch.setattr(
+        "room.server.application.AvatarStore", lambda: AvatarStore(most_bytes=2 * len(avatar()))
+    )
+
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        digest = (await bring(place, ada, avatar()))[1]
+        status, sentence = await bring(place, ada, avatar(_nodes(200)))
+        assert status == 507, "of 503 and 429 the page brings it again by itself, 32 MiB twice a minute"
+        assert "smaller" in sentence
+        assert (await place.guest(name="Cy")).welcome.people[0].own == digest
+        assert (await fetch(place, digest))[0] == 200
+
+    meet(run)
+
+
 def test_avatars_are_checked_by_another_process(monkeypatch):
     """A parser of this one would halt all rooms."""
     monkeypatch.setattr("facegen.formats.gltf_container.parse_json", None)
@@ -496,10 +588,10 @@ def test_one_process_checks_all_and_another_begins_where_it_was_lost(monkeypatch
             with pytest.raises(FormatError, match=REFUSED[fault][1]):
                 await checks.check(REFUSED[fault][0])
         assert checks._process is first
-        first.kill()
-        with pytest.raises(FormatError, match="a simpler one"):
-            await checks.check(avatar())
-        await checks.check(avatar())
+        for gone in (0.0, 0.5):  # its end is noticed, or not yet
+            checks._process.kill()
+            await asyncio.sleep(gone)
+            await checks.check(avatar())  # who comes next has no part in it
         second = checks._process
         asked = asyncio.create_task(checks.check(textured(b"<svg>")))
         await asyncio.sleep(0)
@@ -602,6 +694,32 @@ def test_a_room_whose_people_all_send_slowly_keeps_no_other_room_from_it():
     meet(run)
 
 
+def test_an_avatar_by_which_each_process_ends_is_refused(monkeypatch):
+    monkeypatch.setattr("room.server.avatar_checks._BEGIN", "import sys; sys.stdin.buffer.read(4)")
+
+    async def run() -> None:
+        checks = AvatarChecks()
+        for _ in range(2):
+            with pytest.raises(FormatError, match="a simpler one"):
+                await checks.check(avatar())
+        await checks.close()
+
+    asyncio.run(asyncio.wait_for(run(), 300))
+
+
+def test_where_no_process_begins_the_avatar_comes_again_later(monkeypatch):
+    async def no_more(*_: object, **__: object) -> None:
+        raise BlockingIOError
+
+    async def run(place: Place, ada: Guest, ben: Guest) -> None:
+        with monkeypatch.context() as full:
+            full.setattr("asyncio.create_subprocess_exec", no_more)
+            assert (await bring(place, ada, avatar()))[0] == 503
+        assert (await bring(place, ada, avatar()))[0] == 200
+
+    meet(run)
+
+
 def test_an_avatar_that_breaks_off_is_no_fault_of_the_servers(caplog: pytest.LogCaptureFixture):
     async def run(place: Place, ada: Guest, ben: Guest) -> None:
         for _ in range(2):
@@ -634,3 +752,70 @@ def test_an_avatar_comes_in_pieces_and_what_is_none_is_refused():
     ):
         with pytest.raises(FormatError):
             read_piece(bad)
+
+
+class _Channels:
+    """Another server beside this one, which sends what it is asked for."""
+
+    def __init__(self, avatar: bytes) -> None:
+        self.process, self.avatar, self.sent = "0" * 16, avatar, 0
+
+    def listen(self, hear: Callable[[bytes], None]) -> None:
+        self.hear = hear
+
+    def say(self, _: str, said: bytes) -> None:
+        self.sent += 1
+        wanted = Wanted.model_validate_json(said)
+        asyncio.get_running_loop().call_soon(self.hear, pack_piece(wanted.digest, self.avatar, wanted.at))
+
+
+def _away(content: bytes, *, most_bytes: int) -> tuple[_Channels, AvatarRequests, str]:
+    """A server with somebody of another one who wears an avatar, and its digest."""
+    channels, store, keys = _Channels(content), AvatarStore(most_bytes=most_bytes), new_keys()
+    meeting = Meeting(most_people=8, process="here")
+    seat = meeting.settle(None, 7, "a" * 16)
+    seat.home, seat.own = "there", digest_of(content)
+    avatars = RoomAvatars("lab", meeting, store, AvatarTransfer(channels, store))
+    room = SimpleNamespace(name="lab", avatars=avatars)
+    return channels, AvatarRequests(keys, store, lambda _: room, frozenset()), seat.own
+
+
+def test_of_an_avatar_of_another_server_that_does_not_fit_one_piece_comes():
+    content = bytes(4 * PIECE_BYTES)
+
+    async def run() -> None:
+        channels, requests, digest = _away(content, most_bytes=len(content))
+        room = requests._room_of("lab")
+        assert await requests._transferred(digest, room) is None
+        assert channels.sent == 1
+        assert (
+            await _away(content, most_bytes=2 * len(content))[1]._room_of("lab").avatars.transferred(digest)
+        )
+
+    asyncio.run(asyncio.wait_for(run(), 300))
+
+
+def test_what_was_refused_of_another_server_does_not_come_again_soon(monkeypatch):
+    async def run() -> None:
+        channels, requests, digest = _away(textured(b"<svg>"), most_bytes=2**20)
+        for _ in range(3):
+            assert await requests._transferred(digest, requests._room_of("lab")) is None
+        assert channels.sent == 1
+        monkeypatch.setattr("room.server.avatar_requests.REFUSED_S", 0)
+        requests._refused.clear()
+        for _ in range(2):
+            assert await requests._transferred(digest, requests._room_of("lab")) is None
+        assert channels.sent == 3
+        await requests.close()
+
+    asyncio.run(asyncio.wait_for(run(), 300))
+
+
+def test_what_is_whole_of_another_server_is_kept():
+    async def run() -> None:
+        _, requests, digest = _away(avatar(), most_bytes=2**20)
+        for _ in range(2):
+            assert await requests._transferred(digest, requests._room_of("lab")) == avatar()
+        await requests.close()
+
+    asyncio.run(asyncio.wait_for(run(), 300))

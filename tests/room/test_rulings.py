@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from room.errors import NotAllowed
 from room.protocol.answers import Door
 from room.protocol.texts import MOST_NAME_CHARACTERS, Join, Moderate
-from room.state import Meeting, Seat
+from room.state import Meeting, Seat, identity
 from room.state.kept_rulings import KEPT_S, MOST_KEPT, KeptRulings
 from room.state.meeting import KEEP_S, MOST_BEYOND
 from room.state.rulings import MOST_RULED, Rulings
@@ -65,14 +65,25 @@ def test_an_act_hits_nobody_who_got_the_number_meanwhile(action):
 
 @given(
     st.lists(
-        st.tuples(st.integers(0, 5), st.sampled_from(["Ada", "ADA", "\uff21da", "Ada 2", "a" * 40])),
+        st.tuples(
+            st.integers(0, 5),
+            st.sampled_from(["Ada", "ADA", "\uff21da", "Ada 2", "a" * 40]),
+            st.booleans(),
+            st.booleans(),
+        ),
         max_size=20,
     )
 )
 def test_no_two_people_have_one_name(coming):
     meeting = Meeting(most_people=8)
-    for person, name in coming:
-        seat = meeting.enter(Join(key="k" * 22, secret=str(person) * 22, name=name), moderator=False)
+    for person, name, moderator, goes in coming:
+        moderators = [
+            each for each in meeting.seats if each.moderator and each.id != identity(str(person) * 22)
+        ]
+        kept = [each.name for each in moderators]
+        seat = meeting.enter(Join(key="k" * 22, secret=str(person) * 22, name=name), moderator=moderator)
+        assert [each.name for each in moderators] == kept
+        seat.gone_at = 0.0 if goes else None
         assert seat.name[:2] == name[:2]
         names = [unicodedata.normalize("NFKC", each.name).casefold() for each in meeting.seats]
         assert len({*names}) == len(names)
@@ -81,6 +92,30 @@ def test_no_two_people_have_one_name(coming):
         meeting.leave(seat)
     alone = meeting.enter(Join(key="k" * 22, secret=SECRET, name="Ada"), moderator=False)
     assert alone.name == "Ada"
+
+
+def _come(meeting: Meeting, number: int, *, moderator: bool = False) -> Seat:
+    return meeting.enter(Join(key="k" * 22, secret=f"{number:022}", name="Ada"), moderator=moderator)
+
+
+def test_a_moderator_has_their_name_whoever_came_before():
+    meeting = Meeting(most_people=8)
+    guest = _come(meeting, 1)
+    chair = _come(meeting, 2, moderator=True)
+    assert (chair.name, guest.name) == ("Ada", "Ada 2")
+    chair.gone_at = 0.0
+    assert _come(meeting, 3).name == "Ada 3", "a moderator's name is kept while they are away"
+    assert _come(meeting, 4, moderator=True).name == "Ada 4"
+    assert guest.name == "Ada 2"
+
+
+def test_who_has_gone_keeps_no_name_from_who_comes():
+    meeting = Meeting(most_people=8)
+    gone = _come(meeting, 1)
+    assert _come(meeting, 2).name == "Ada 2"
+    gone.gone_at = 0.0
+    assert _come(meeting, 3).name == "Ada"
+    assert _come(meeting, 1).name == gone.name == "Ada 3"
 
 
 def test_moderators_come_into_a_full_room_and_not_without_end():

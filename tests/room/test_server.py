@@ -71,6 +71,18 @@ async def test_who_comes_back_has_the_same_number_and_stands_where_they_stood(pl
 
 
 @meeting
+async def test_all_hear_who_lost_a_name_to_a_moderator(place):
+    guest, ben = await place.guest(name="Chair"), await place.guest(name="Ben")
+    chair = await place.guest(name="chair", moderator=True)
+    assert {person.name for person in chair.welcome.people} == {"Chair 2", "Ben", "chair"}
+    for each in (guest, ben):
+        await each.told(
+            Changed,
+            lambda changed: (changed.person.number, changed.person.name) == (guest.number, "Chair 2"),
+        )
+
+
+@meeting
 async def test_who_leaves_is_gone_at_once(place):
     ada, ben = await place.guest(), await place.guest(name="Ben")
     await ada.say(kind="leave")

@@ -8,10 +8,13 @@ from contextlib import AsyncExitStack, asynccontextmanager
 import aiohttp
 import pytest
 
+from room.avatars import AvatarStore
 from room.protocol.answers import Engine, Signal
-from room.server import Keys
+from room.server import Keys, Limits, Relays
 from room.server.janus import Janus
+from room.server.live_rooms import LiveRooms
 from room.server.voice_room import instance_of, voice_room
+from room.state.meeting import MOST_BEYOND
 from tests.room.engines import API_SECRET, free_port, janus, needs_janus
 from tests.room.guests import SOON_S, Guest, Place, open_room
 
@@ -232,6 +235,22 @@ def test_janus_may_be_killed_the_page_is_told_and_gets_new_lines_when_it_is_back
                     await speak(guest)
 
     asyncio.run(run())
+
+
+@pytest.mark.parametrize("people", [1, 7, 64])
+def test_a_room_at_janus_has_a_place_for_each_person_and_moderator_twice(people):
+    janus = Janus("ws://127.0.0.1:1", secret=API_SECRET)
+    rooms = LiveRooms(
+        b"secret",
+        limits=Limits(people=people),
+        relays=Relays(),
+        store=AvatarStore(),
+        recorder=None,
+        replayed=None,
+        channels=None,
+        engines=[janus],
+    )
+    assert rooms._voices_of("lab")._room.places == 2 * (people + MOST_BEYOND)
 
 
 def test_rooms_are_shared_alike_and_stay_where_they_are_when_an_instance_comes():

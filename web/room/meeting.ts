@@ -118,6 +118,7 @@ export class Meeting {
     this.voice.configure(welcome.ice, welcome.engine);
     this.people.welcome(welcome.people, welcome.number);
     this.stage.pointers.clear();
+    this.raised.clear();
     for (const { number } of welcome.people) this.speak(number, false); // in mid-word when the line broke, perhaps
     this.brought.again();
     this.locked = welcome.locked;

@@ -64,19 +64,31 @@ export class Stage {
     if (!self) figure.call(person, (shown.flags & FLAG.tracked) !== 0);
   }
 
-  /** Draw; where an avatar breaks the picture off, one after the other is left out until it is known which one. */
+  /**
+   * Draw; where an avatar breaks the picture off, one after the other is left out until one comes. The last of them is taken off
+   * if it breaks the picture off once more.
+   */
   private paint(people: People): void {
     const seen = [...people.known.values()].filter(({ figure }) => figure?.root.visible);
     for (const known of [undefined, ...seen]) {
       if (known) known.figure!.root.visible = false;
-      try {
-        this.view.draw();
-        if (known) people.refuse(known);
-        break;
-      } catch (error) {
-        console.warn("picture:", error);
+      if (!this.draws()) continue;
+      if (known) {
+        known.figure!.root.visible = true;
+        if (!this.draws()) people.refuse(known); // else what broke off once was nobody's
       }
+      break;
     }
     for (const { figure } of seen) if (figure) figure.root.visible = true;
+  }
+
+  private draws(): boolean {
+    try {
+      this.view.draw();
+      return true;
+    } catch (error) {
+      console.warn("picture:", error);
+      return false;
+    }
   }
 }

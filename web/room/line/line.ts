@@ -53,6 +53,7 @@ export class Line {
     this.connect();
     // a laptop that wakes up, or changes networks, need not wait for the next try
     addEventListener("online", () => {
+      this.late = 0; // tries of a network that was gone say nothing of the server
       if (!this.open) {
         this.drop(); // begun on a network that is gone
         return this.connect();

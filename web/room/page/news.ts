@@ -8,5 +8,6 @@ export function newsOf(before: Person, after: Person, wants: { shares: boolean; 
   if (before.muted && !after.muted) return "You may speak again.";
   if (before.own && !after.own && wants.wears) return "A moderator has taken your avatar off; you wear the room's.";
   if (before.shares && !after.shares && wants.shares) return "A moderator has ended your sharing.";
+  if (before.name !== after.name) return `A moderator has this name: the others see you as ${after.name}.`;
   return "";
 }

@@ -21,6 +21,11 @@ export class Raised {
     return raises && now - last > AGAIN_MS ? "up" : "seen";
   }
 
+  /** After a break of the line: whose hand is still up says so with their next state, and is not told of anew. */
+  clear(): void {
+    this.up.clear();
+  }
+
   /** Somebody has left: their number is another's next. */
   drop(number: number): void {
     this.up.delete(number);

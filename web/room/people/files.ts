@@ -8,8 +8,13 @@ import { again } from "./tries.js";
  */
 export const MOST_KEPT_BYTES = 128 * 2 ** 20;
 
+/** Files that are fetched at one time: of twenty at once over a slow link none would come for minutes. */
+export const MOST_AT_ONCE = 2;
+
 export class Files {
   private readonly kept = new Map<string, ArrayBuffer>();
+  private asking = 0;
+  private readonly waiting: (() => void)[] = [];
 
   /** `address` is `/room/NAME/avatar`. */
   constructor(
@@ -19,8 +24,19 @@ export class Files {
 
   /** The file of a digest, asked for until it comes; undefined where it is wanted no longer. */
   async fetch(digest: string, wanted: () => boolean): Promise<ArrayBuffer | undefined> {
-    const content = this.kept.get(digest) ?? (await again(() => this.ask(digest), wanted));
+    const content = this.kept.get(digest) ?? (await again(() => this.inTurn(digest, wanted), wanted));
     if (content) this.keep(digest, content);
+    return content;
+  }
+
+  /** Ask when fewer than so many are on their way, if it is wanted then. */
+  private async inTurn(digest: string, wanted: () => boolean): Promise<ArrayBuffer | undefined> {
+    if (this.asking < MOST_AT_ONCE) this.asking++;
+    else await new Promise<void>((resolve) => this.waiting.push(resolve));
+    const content = wanted() ? (this.kept.get(digest) ?? (await this.ask(digest))) : undefined;
+    const next = this.waiting.shift();
+    if (next) next(); // has this one's turn
+    else this.asking--;
     return content;
   }
 

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, mock, test } from "node:test";
 
-import { Files, MOST_KEPT_BYTES } from "../people/files.js";
+import { Files, MOST_AT_ONCE, MOST_KEPT_BYTES } from "../people/files.js";
 
 class Part {
   textContent = "";
@@ -74,7 +74,30 @@ test("files are kept by their digest, the newest within a bound", async () => {
   assert.deepEqual(asked.slice(5), ["/avatar/d2"]);
 });
 
-for (const [status, tries] of [[403, 2], [422, 1]] as const) {
+test("few files are on their way at one time, and all come, each once", async () => {
+  const files = new Files("/avatar", "key");
+  const given: (() => void)[] = [];
+  const real = globalThis.fetch;
+  globalThis.fetch = async (address) => {
+    asked.push(String(address));
+    await new Promise<void>((resolve) => given.push(resolve));
+    return new Response(new Uint8Array(5));
+  };
+  const unwanted = "d4";
+  const digests = ["d1", "d2", "d3", "d4", "d5", "d1"];
+  const found = digests.map((digest) => files.fetch(digest, () => digest !== unwanted || asked.length === 0));
+  for (let left = 10; left; left--) {
+    await passed(0);
+    assert.ok(given.length <= MOST_AT_ONCE);
+    given.shift()?.();
+  }
+  const sizes = (await Promise.all(found)).map((content) => content?.byteLength);
+  globalThis.fetch = real;
+  assert.deepEqual(sizes, [5, 5, 5, undefined, 5, 5]);
+  assert.deepEqual(asked, ["/avatar/d1", "/avatar/d2", "/avatar/d3", "/avatar/d5"]);
+});
+
+for (const [status, tries] of [[403, 2], [422, 1], [507, 1]] as const) {
   test(`an own avatar that was answered by ${status} is brought ${tries} times in four welcomes`, async () => {
     const brought = new Brought("/avatar", "key", "secret", () => undefined);
     Object.assign(brought, { file: { name: "me.glb", content: new ArrayBuffer(8) } });

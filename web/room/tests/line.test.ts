@@ -173,6 +173,17 @@ test("behind another network a try that was begun before is made anew at once", 
   assert.deepEqual(heard, ["welcome"]);
 });
 
+test("behind another network tries are given up as soon as at the beginning", () => {
+  open();
+  wait(40_000); // two tries at least were given up
+  listeners.dispatchEvent(new Event("online"));
+  const socket = Socket.made.at(-1)!;
+  wait(4900);
+  assert.equal(socket.readyState, Socket.OPEN);
+  wait(300);
+  assert.equal(socket.readyState, 3);
+});
+
 test("each try that was given up leaves the next one more time, until there is a welcome", () => {
   const { heard } = open();
   const lasted = (): number => {

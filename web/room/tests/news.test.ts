@@ -16,6 +16,10 @@ test("who is muted, undressed or cut short is told so", () => {
   assert.match(newsOf(ada, { ...ada, shares: false }, wants), /ended your sharing/);
 });
 
+test("who loses their name to a moderator is told so", () => {
+  assert.match(newsOf(ada, { ...ada, name: "Ada 2" }, wants), /you as Ada 2/);
+});
+
 test("what one did oneself is no news", () => {
   assert.equal(newsOf(ada, { ...ada, own: "", shares: false }, { shares: false, wears: false }), "");
   assert.equal(newsOf(ada, { ...ada, voice: true }, wants), "");

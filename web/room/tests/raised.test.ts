@@ -27,6 +27,16 @@ test("who waves a hand up and down is told once", () => {
   assert.equal(raised.see(3, shows("raise hand"), 60_000), "up");
 });
 
+test("behind a break of the line a hand that went down meanwhile is down, and one that is up is not told again", () => {
+  const raised = new Raised();
+  raised.see(3, shows("raise hand"), 0);
+  raised.see(4, shows("raise hand"), 0);
+  raised.clear();
+  assert.equal(raised.see(3, shows("none"), 2000), undefined);
+  assert.equal(raised.see(4, shows("raise hand"), 2000), "seen");
+  assert.deepEqual([raised.has(ada), raised.has({ ...ada, number: 4 })], [false, true]);
+});
+
 test("a number that is another's next begins anew", () => {
   const raised = new Raised();
   raised.see(3, shows("raise hand"), 0);
