@@ -19,6 +19,7 @@ from regress.errors import InputError
 from regress.runtime.heads.camera import CameraSettings
 from regress.runtime.inputs import Frames, face_faults, read_frames, read_lines, text_lines
 from regress.runtime.inputs.frames import are_shares, pixels_of
+from regress.runtime.inputs.times import IN_ORDER
 from regress.runtime.model import Model
 from regress.runtime.predict import predict_frames, predict_stream
 from regress.runtime.ready_made import LANDMARKS
@@ -36,9 +37,6 @@ FEWEST_OF_FILM = 10
 
 STEADY = 0.1
 """Of a face's width: films' faces move by less from most frames to the next, those of photographs by more."""
-
-IN_ORDER = 0.9
-"""Share of a film's frames that must be later than the one before: rows of two faces a picture share times."""
 
 
 def model_and_input(arguments: list[Path], chosen: str | None) -> tuple[str | Path, Path]:
@@ -94,7 +92,7 @@ def predict_file(
         frames, takes = main, main.takes()
     if auto_filter and is_film(main.time_s):
         output = dataclasses.replace(output, filter=FILM_FILTER)
-    elif auto_filter and main.time_s is None and is_steady(main.points):
+    elif auto_filter and main.time_s is main.odd_times is None and is_steady(main.points):
         say(
             f"{landmarks}: no times are given, so weights are not filtered; if this is a film, --fps says how many "
             "frames a second it has"
@@ -131,14 +129,26 @@ def predict_file(
 
 
 def _say_odd_rate(source: str, take: Frames) -> None:
-    """Tell of times that cannot be a camera's: of more frames a second than one has, or a film's of milliseconds."""
+    """Tell of times that cannot be a camera's: none that go on, too many a second, or a film's of milliseconds."""
+    column = "key" if take.source.lower().endswith(".json") else "column"
+    if take.odd_times is not None and len(take.labels) > 1:
+        say(
+            f"{source}: the {column} {take.odd_times} does not go on from frame to frame, so there are no times; "
+            "--fps says how many frames a second a film has"
+        )
+        return
     rate = frames_a_second(take.time_s)
     if rate > FILM_FPS[1]:
         say(f"{source}: its times are of {rate:.0f} frames a second; --fps says what the camera's were")
     elif 0 < rate < FILM_FPS[0] and is_steady(take.points):
         say(
             f"{source}: its times are of {rate:.2g} frames a second, which is no film, so weights are not filtered; if "
-            "they are milliseconds, call the column timestamp_ms, or give --fps"
+            f"they are milliseconds, call the {column} timestamp_ms, or give --fps"
+        )
+    elif take.time_s is not None and rate == 0 and is_steady(take.points):
+        say(
+            f"{source}: its times do not go on from frame to frame, so weights are not filtered; --fps says how many "
+            "frames a second a film has"
         )
 
 

@@ -68,6 +68,30 @@ def test_times_of_results_are_read_and_pictures_without_a_face_take_theirs(
     np.testing.assert_allclose(read.at_rate(10).time_s, [0, 0.2])
 
 
+def test_numbers_of_results_that_do_not_go_on_are_no_times(run, quick_model_folder: Path, tmp_path: Path):
+    mesh = 0.3 + 0.3 * MESHES[0]
+    results = [
+        {"timestamp": 0.02, "timeMs": "?", "time_ms": 100 * place, "faceLandmarks": [_points(mesh)]}
+        for place in range(12)
+    ]
+    np.testing.assert_allclose(_read(tmp_path / "a.json", results).time_s, np.arange(12) / 10)
+    for result in results:
+        del result["time_ms"]
+    read = _read(tmp_path / "a.json", results)
+    assert (read.time_s, read.odd_times) == (None, "timestamp")
+    for place, result in enumerate(results):
+        result["timestamp"] = 33 * place
+    _read(tmp_path / "a.json", results)
+    said = run("predict", quick_model_folder, tmp_path / "a.json")[2]
+    assert "if they are milliseconds, call the key timestamp_ms" in said
+
+
+@pytest.mark.parametrize("time", [1e30, 10**400])
+def test_a_time_after_all_times_is_refused(time: float, tmp_path: Path):
+    with pytest.raises(InputError, match="a timestamp is beyond 1e\\+19 s"):
+        _read(tmp_path / "a.json", {"timestamp": time, "faceLandmarks": [_points(MESHES[0])]})
+
+
 @pytest.mark.parametrize(
     ("document", "said"),
     [

@@ -1,6 +1,6 @@
 """Frames of landmarks, whatever file they came from."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
@@ -12,6 +12,7 @@ from regress.errors import InputError
 from regress.runtime.inputs.faults import face_faults
 from regress.runtime.inputs.orders import split_irises
 from regress.runtime.inputs.people import people_of
+from regress.runtime.inputs.times import LATEST_S, TIMES, go_on
 from regress.runtime.sample import Sample
 
 MOST_FRAMES = 1_000_000
@@ -46,6 +47,8 @@ class Frames:
         What the picture that each is of is called, where pictures have several faces with labels of their own.
     picture_px
         Width and height of the pictures, where the file tells and all have the same.
+    odd_times
+        What the file calls numbers that have a time's name and do not go on as times do.
     """
 
     points: np.ndarray
@@ -57,6 +60,7 @@ class Frames:
     faces: tuple[str, ...] | None = None
     picture_names: tuple[str, ...] | None = None
     picture_px: tuple[int, int] | None = None
+    odd_times: str | None = None
 
     @property
     def usable(self) -> np.ndarray:
@@ -96,6 +100,7 @@ class Frames:
             faces=_rows_of(self.faces, rows),
             picture_names=_rows_of(self.picture_names, rows),
             picture_px=self.picture_px,
+            odd_times=self.odd_times,
         )
 
     def takes(self) -> dict[str | None, np.ndarray]:
@@ -166,6 +171,34 @@ def of_pictures(
 def of_folders(frames: Frames, folders: Sequence[str]) -> Frames:
     """The frames as a take for each of the folders that they lie in: films, and people, of their own."""
     return frames if len(set(folders)) < 2 else replace(frames, faces=tuple(folders))
+
+
+def timed(frames: Frames, told: Mapping[str, np.ndarray], *, sure: bool = False) -> Frames:
+    """The frames with the first times that go on from frame to frame in the longest take; without, where none do.
+
+    Parameters
+    ----------
+    frames
+        Without times.
+    told
+        Numbers (n,) of each frame by a name in `TIMES`, the first choice first.
+    sure
+        Whether they are times, whatever they hold.
+
+    Raises
+    ------
+    InputError
+        Where a time is beyond `LATEST_S`.
+    """
+    rows = max(frames.takes().values(), key=len)
+    for name, numbers in told.items():
+        if not sure and not go_on(numbers[rows]):
+            continue
+        time_s = numbers * TIMES[name]
+        if (np.abs(time_s) > LATEST_S).any():
+            raise InputError(f"{frames.source}: a {name} is beyond {LATEST_S:g} s")
+        return replace(frames, time_s=time_s)
+    return replace(frames, odd_times=next(iter(told), None))
 
 
 def stacked(faces: Iterable[np.ndarray], path: Path) -> tuple[np.ndarray, np.ndarray | None]:
