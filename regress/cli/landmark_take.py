@@ -193,11 +193,15 @@ def predict_pipe(
     """Predict lines of standard input, each as it comes, and write rows to standard output."""
     calm = None
     picture_px = None if camera is None else camera.picture_px
-    if neutral not in ("auto", "none"):
+    samples = _in_pixels(read_lines(text_lines(sys.stdin), fps=fps), picture_px)
+    if neutral == "first":
+        waiting, calm = _up_to_a_face(samples)
+        samples = itertools.chain(waiting, samples)
+    elif neutral not in ("auto", "none"):
         calm = in_pixels(neutral_file(neutral, "standard input"), picture_px)
+    if calm is not None:
         model = model.calibrate(calm.points)
     head = _head_settings(camera, calm)
-    samples = _in_pixels(read_lines(text_lines(sys.stdin), fps=fps), picture_px)
     first = list(itertools.islice(samples, 1))
     slowest, quickest = FILM_FPS
     if auto_filter and first and first[0].time_s is not None and slowest <= (fps or slowest) <= quickest:
@@ -214,6 +218,24 @@ def predict_pipe(
     for line in csv_lines(_told(answers, strict=strict), output.names):
         sys.stdout.write(line)
         sys.stdout.flush()  # the reader wants each frame as it comes
+
+
+def _up_to_a_face(samples: Iterator[Sample]) -> tuple[list[Sample], Frames | None]:
+    """The samples up to the first with a sound face, and this one alone; None where there is no such one."""
+    waiting = []
+    for sample in samples:
+        waiting.append(sample)
+        if face_faults(sample.points[None]) == [None]:
+            irises = None if sample.irises is None else sample.irises[None]
+            face = Frames(
+                points=sample.points[None],
+                labels=(sample.label,),
+                time_s=None,
+                source="standard input",
+                irises=irises,
+            )
+            return waiting, face
+    return waiting, None
 
 
 def _in_pixels(samples: Iterable[Sample], picture_px: tuple[int, int] | None) -> Iterator[Sample]:

@@ -54,8 +54,8 @@ def predict(
             "--neutral",
             metavar="FRAME|FILE|first|auto|none",
             help="The person's neutral face: a frame of INPUT by its label, frames FIRST-LAST, another "
-            "file of landmarks, first, the first frame of each face or folder, auto, which looks for it, or none, as "
-            "without this option.",
+            "file of landmarks, first, the first frame of each face or folder or the first line with a face, auto, "
+            "which looks for it, or none, as without this option.",
         ),
     ] = None,
     strict: Annotated[
