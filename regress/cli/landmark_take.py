@@ -86,8 +86,8 @@ def predict_file(
     main = frames.take(max(takes.values(), key=len))  # a passer-by's rows say nothing of a film's rate
     if len(takes) > 1 and needs_times(table_format, gltf):
         say(
-            f"{landmarks}: there are several faces, and an animation or a recording is of one: "
-            f"face {main.faces[0]} is written, with {len(main.labels)} of {len(frames.labels)} rows"
+            f"{landmarks}: there are several {frames.kind_of_takes}s, and an animation or a recording is of one: "
+            f"{frames.kind_of_takes} {main.faces[0]} is written, with {len(main.labels)} of {len(frames.labels)} rows"
         )
         frames, takes = main, main.takes()
     if auto_filter and is_film(main.time_s):

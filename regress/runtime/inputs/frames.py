@@ -68,6 +68,11 @@ class Frames:
         return np.isfinite(self.points).all(axis=(1, 2))
 
     @property
+    def kind_of_takes(self) -> str:
+        """What people call a take, where there are several: faces of pictures, or folders (`of_folders`)."""
+        return "folder" if self.picture_names is None else "face"
+
+    @property
     def shares(self) -> bool:
         """Whether points are shares of a picture's width and height, 0 to 1, and no pixels: all are, or none is."""
         faces = self._sound_faces()
