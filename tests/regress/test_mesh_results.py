@@ -34,6 +34,14 @@ FILMS = {
     "lists of points": [_points(mesh) for mesh in MESHES],
     "lists of faces": [[_points(mesh)] for mesh in MESHES],
     "lists of numbers": np.concatenate([MESHES, MESHES[..., :1]], axis=2).tolist(),
+    "behind names": {
+        "landmarks": ["chin"],
+        "frames": [{"landmarks": [_points(each)]} for each in MESHES],
+    },
+    "behind files": {
+        "frames": ["a.png"],
+        "results": [{"faceLandmarks": ["mesh"], "landmark": _points(each)} for each in MESHES],
+    },
     "of TensorFlow": [[{"box": {"xMin": 1}, "keypoints": _points(mesh)}] for mesh in MESHES],
 }
 
@@ -46,6 +54,12 @@ def test_films_are_read_however_their_results_are_called(name: str, tmp_path: Pa
     assert read.labels == ("0", "1", "2")
     assert read.shares
     assert read.time_s is None
+
+
+def test_an_empty_list_of_faces_says_that_there_is_none(tmp_path: Path):
+    body = _points(MESHES[0])[:33]
+    results = [{"faceLandmarks": faces, "landmarks": [body]} for faces in ([_points(MESHES[0])], [])]
+    assert _read(tmp_path / "a.json", results).labels == ("0",)
 
 
 def test_one_result_is_a_picture_of_all_of_its_faces(tmp_path: Path):

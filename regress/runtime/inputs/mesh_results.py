@@ -67,7 +67,8 @@ def read_parsed(document: Any, path: Path) -> Frames:
 
 def _pictures(document: Any) -> list[Any]:
     if isinstance(document, dict):
-        film = next((document[key] for key in _FILMS if isinstance(document.get(key), list)), None)
+        lists = (document[key] for key in _FILMS if isinstance(document.get(key), list))
+        film = next((each for each in lists if is_document(each)), None)
         return [document] if film is None else film
     return [document] if _is_face(document) else document
 
@@ -84,9 +85,15 @@ def _faces_in(node: Any, depth: int = 0) -> Iterator[list[Any]]:
                 yield from _faces_in(each, depth + 1)
     elif isinstance(node, dict):
         for key in (*_FACES, *_FILMS):
-            if isinstance(node.get(key), list):
-                yield from _faces_in(node[key], depth + 1)
-                return
+            if not isinstance(node.get(key), list):
+                continue
+            faces = _faces_in(node[key], depth + 1)
+            first = next(faces, None)
+            if first is not None:
+                yield first
+                yield from faces
+            if first is not None or not node[key]:
+                return  # an empty list says that there is no face; names of points say nothing
 
 
 def _is_face(node: Any) -> bool:
