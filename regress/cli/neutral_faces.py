@@ -8,6 +8,7 @@ from facegen.console import say
 from regress.cli.rows import sound_rows
 from regress.errors import InputError
 from regress.runtime.inputs import Frames, read_frames
+from regress.runtime.inputs.frames import FEWEST_PX
 from regress.runtime.model import Model
 from regress.runtime.stages.neutral import estimate_neutral, frame_rate
 
@@ -20,9 +21,6 @@ SHARES = (
 
 _MOST_LINES = 10
 """Of folders or faces, of each of which there is something to say: of more it is summed up."""
-
-FEWEST_PX = 3.0
-"""A face's extent, below which its points are in another unit than pixels."""
 
 
 def in_pixels(frames: Frames, picture_px: tuple[int, int] | None) -> Frames:

@@ -163,6 +163,12 @@ def test_third_numbers_of_a_face_that_are_no_scores_are_left_alone(
         )
 
 
+def test_distances_in_metres_are_no_scores(tmp_path: Path):
+    faces = np.concatenate([FACES / 2000 - 0.2, np.full((3, LANDMARK_COUNT, 1), 0.25)], axis=2)
+    np.save(tmp_path / "a.npy", faces)
+    assert read_frames(tmp_path / "a.npy").usable.all()
+
+
 @pytest.mark.parametrize("depth", [0, 1])
 def test_an_array_of_meshes_has_landmarks_and_irises(depth: int, tmp_path: Path):
     meshes = np.random.default_rng(3).uniform(0, 900, (4, VERTICES, 2 + depth))

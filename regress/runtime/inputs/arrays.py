@@ -8,7 +8,7 @@ import numpy as np
 from facegen.archives import load_npy, load_npz
 from facegen.conventions import LANDMARK_COUNT
 from regress.errors import InputError
-from regress.runtime.inputs.frames import MOST_FRAMES, Frames
+from regress.runtime.inputs.frames import FEWEST_PX, MOST_FRAMES, Frames
 from regress.runtime.inputs.instances import has_face
 from regress.runtime.inputs.orders import BODIES, COUNTS, COUNTS_SAID, split_irises
 
@@ -59,7 +59,7 @@ def _has_scores(points: np.ndarray, frames: Frames) -> bool:
     third = third[np.isfinite(third)]
     if not third.any():
         return False
-    return points.shape[1] in BODIES or (third.min() >= 0 and third.max() <= 1 and not frames.shares)
+    return points.shape[1] in BODIES or (third.min() >= 0 and third.max() <= 1 and frames.extent >= FEWEST_PX)
 
 
 def _array(path: Path) -> np.ndarray:

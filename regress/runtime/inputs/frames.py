@@ -19,8 +19,14 @@ MOST_FRAMES = 1_000_000
 """Of one file or folder: nine hours at 30 a second, and 1.1 GB of points."""
 
 
+FEWEST_PX = 3.0
+"""A face's extent, below which its points are in another unit than pixels."""
+
 _REACH = (-0.5, 1.5)
 """Of shares: a face at a picture's edge has points outside."""
+
+_BEYOND_CORNER = 0.2
+"""Share of points left of a picture, and of those above it, from which on both tell of a middle at 0."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -140,9 +146,14 @@ def _rows_of(names: tuple[str, ...] | None, rows: np.ndarray | list[int]) -> tup
 
 
 def are_shares(points: np.ndarray) -> bool:
-    """Whether most of points (..., 2) lie in a picture or about it, as shares of it: no face in pixels is so small."""
+    """Whether most of points (..., 2) lie in a picture or about it, as shares of it: no face in pixels is so small.
+
+    Points about a middle at 0 are small as well, as in metres: many are negative in x, and many in y.
+    """
     least, most = _REACH
-    return bool(np.mean(((points >= least) & (points <= most)).all(axis=-1)) > 0.5)
+    small = np.mean(((points >= least) & (points <= most)).all(axis=-1)) > 0.5
+    negative = (points < 0).reshape(-1, 2).mean(axis=0)
+    return bool(small and negative.min() < _BEYOND_CORNER)
 
 
 def pixels_of(shares: np.ndarray, picture_px: tuple[int, int]) -> np.ndarray:
