@@ -112,7 +112,8 @@ def predict(
     Example: regress predict take.csv --neutral 1 --one-euro 1 --out weights.csv
     """
     from regress.cli.camera import camera_settings
-    from regress.cli.landmark_take import model_and_input, predict_file, predict_pipe
+    from regress.cli.landmark_lines import predict_pipe
+    from regress.cli.landmark_take import model_and_input, predict_file
     from regress.cli.output import output_of
     from regress.cli.results import STANDARD_OUTPUT, check_targets
     from regress.errors import InputError
