@@ -39,8 +39,8 @@ def export(
 ) -> None:
     """Write a model for other programs: landmarks in, 52 weights out, alignment included.
 
-    Every file agrees with `regress predict --filter none --keep-guessed-gaze` to 1e-4, but answers faces too which
-    predict leaves out: in a mirror, with y upward, or on one line.
+    Every file agrees with `regress predict --filter none --no-own-blinks --keep-guessed-gaze` to 1e-4, but answers
+    faces too which predict leaves out: in a mirror, with y upward, or on one line.
 
     Example: regress export models/default --format onnx
     """

@@ -1,32 +1,28 @@
-"""What `regress predict` does with a recording of landmarks, or with lines on a pipe."""
+"""What `regress predict` does with a recording of landmarks."""
 
 import dataclasses
-import itertools
-import sys
-from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
 
 from facegen.console import say
 from facegen.files import write_whole
-from regress.cli.fault_runs import FaultRuns
-from regress.cli.neutral_faces import SHARES, in_pixels, neutral_faces, neutral_file, refuse_other_units
+from regress.cli.neutral_faces import in_pixels, neutral_faces
 from regress.cli.options import TableFormat
 from regress.cli.results import needs_times, write_prediction
 from regress.cli.rows import sound_rows
 from regress.errors import InputError
 from regress.runtime.heads.camera import CameraSettings
-from regress.runtime.inputs import Frames, face_faults, read_frames, read_lines, text_lines
-from regress.runtime.inputs.frames import are_shares, pixels_of
+from regress.runtime.inputs import Frames, read_frames
+from regress.runtime.inputs.times import IN_ORDER
 from regress.runtime.model import Model
-from regress.runtime.predict import predict_frames, predict_stream
+from regress.runtime.predict import predict_frames
 from regress.runtime.ready_made import LANDMARKS
 from regress.runtime.sample import Sample
-from regress.runtime.stages.filters import DEFAULT_FILTER, FILM_FILTER
+from regress.runtime.stages.filters import FILM_FILTER
 from regress.runtime.stages.head import HeadSettings
 from regress.runtime.stages.output import Output
-from regress.runtime.writers.csv_table import confidence_csv, csv_lines
+from regress.runtime.writers.csv_table import confidence_csv
 
 FILM_FPS = (5.0, 500.0)
 """Frames a second of what is filtered unasked. Rows of stills have no times, equal ones, or count milliseconds."""
@@ -36,9 +32,6 @@ FEWEST_OF_FILM = 10
 
 STEADY = 0.1
 """Of a face's width: films' faces move by less from most frames to the next, those of photographs by more."""
-
-IN_ORDER = 0.9
-"""Share of a film's frames that must be later than the one before: rows of two faces a picture share times."""
 
 
 def model_and_input(arguments: list[Path], chosen: str | None) -> tuple[str | Path, Path]:
@@ -88,13 +81,13 @@ def predict_file(
     main = frames.take(max(takes.values(), key=len))  # a passer-by's rows say nothing of a film's rate
     if len(takes) > 1 and needs_times(table_format, gltf):
         say(
-            f"{landmarks}: there are several faces, and an animation or a recording is of one: "
-            f"face {main.faces[0]} is written, with {len(main.labels)} of {len(frames.labels)} rows"
+            f"{landmarks}: there are several {frames.kind_of_takes}s, and an animation or a recording is of one: "
+            f"{frames.kind_of_takes} {main.faces[0]} is written, with {len(main.labels)} of {len(frames.labels)} rows"
         )
         frames, takes = main, main.takes()
     if auto_filter and is_film(main.time_s):
         output = dataclasses.replace(output, filter=FILM_FILTER)
-    elif auto_filter and main.time_s is None and is_steady(main.points):
+    elif auto_filter and main.time_s is main.odd_times is None and is_steady(main.points):
         say(
             f"{landmarks}: no times are given, so weights are not filtered; if this is a film, --fps says how many "
             "frames a second it has"
@@ -118,7 +111,7 @@ def predict_file(
             frames.take(rows),
             output=output.with_own_blinks(film=auto_blinks and calm[face] is not None),
             confident=trust is not None,
-            head=_head_settings(camera, calm[face]),
+            head=head_settings(camera, calm[face]),
             keep_guessed_gaze=keep_guessed_gaze,
             say=say,
         )
@@ -131,14 +124,26 @@ def predict_file(
 
 
 def _say_odd_rate(source: str, take: Frames) -> None:
-    """Tell of times that cannot be a camera's: of more frames a second than one has, or a film's of milliseconds."""
+    """Tell of times that cannot be a camera's: none that go on, too many a second, or a film's of milliseconds."""
+    column = "key" if take.source.lower().endswith(".json") else "column"
+    if take.odd_times is not None and len(take.labels) > 1:
+        say(
+            f"{source}: the {column} {take.odd_times} does not go on from frame to frame, so there are no times; "
+            "--fps says how many frames a second a film has"
+        )
+        return
     rate = frames_a_second(take.time_s)
     if rate > FILM_FPS[1]:
         say(f"{source}: its times are of {rate:.0f} frames a second; --fps says what the camera's were")
     elif 0 < rate < FILM_FPS[0] and is_steady(take.points):
         say(
             f"{source}: its times are of {rate:.2g} frames a second, which is no film, so weights are not filtered; if "
-            "they are milliseconds, call the column timestamp_ms, or give --fps"
+            f"they are milliseconds, call the {column} timestamp_ms, or give --fps"
+        )
+    elif take.time_s is not None and rate == 0 and is_steady(take.points):
+        say(
+            f"{source}: its times do not go on from frame to frame, so weights are not filtered; --fps says how many "
+            "frames a second a film has"
         )
 
 
@@ -169,73 +174,8 @@ def frames_a_second(time_s: np.ndarray | None) -> float:
     return 1 / middle if middle > 0 else 0.0
 
 
-def predict_pipe(
-    model: Model,
-    neutral: str,
-    output: Output,
-    *,
-    camera: CameraSettings | None,
-    keep_guessed_gaze: bool,
-    auto_filter: bool,
-    fps: float | None,
-    strict: bool,
-) -> None:
-    """Predict lines of standard input, each as it comes, and write rows to standard output."""
-    calm = None
-    picture_px = None if camera is None else camera.picture_px
-    if neutral not in ("auto", "none"):
-        calm = in_pixels(neutral_file(neutral, "standard input"), picture_px)
-        model = model.calibrate(calm.points)
-    head = _head_settings(camera, calm)
-    samples = _in_pixels(read_lines(text_lines(sys.stdin), fps=fps), picture_px)
-    first = list(itertools.islice(samples, 1))
-    slowest, quickest = FILM_FPS
-    if auto_filter and first and first[0].time_s is not None and slowest <= (fps or slowest) <= quickest:
-        output = dataclasses.replace(output, filter=DEFAULT_FILTER)
-    answers = predict_stream(
-        itertools.chain(first, samples),
-        model,
-        output,
-        head=head,
-        keep_guessed_gaze=keep_guessed_gaze,
-        auto=neutral == "auto",
-        say=say,
-    )
-    for line in csv_lines(_told(answers, strict=strict), output.names):
-        sys.stdout.write(line)
-        sys.stdout.flush()  # the reader wants each frame as it comes
-
-
-def _in_pixels(samples: Iterable[Sample], picture_px: tuple[int, int] | None) -> Iterator[Sample]:
-    """The samples with points in pixels; where no picture is known of shares, a person is told once."""
-    shares = None
-    for sample in samples:
-        if shares is None and face_faults(sample.points[None]) == [None]:
-            shares = are_shares(sample.points)  # the first face decides for all
-            if shares and picture_px is None:
-                say(f"standard input: {SHARES}")
-            if not shares and picture_px is not None:
-                refuse_other_units(float(np.ptp(sample.points, axis=0).max()), "standard input")
-        if shares and picture_px is not None:
-            irises = None if sample.irises is None else pixels_of(sample.irises, picture_px)
-            sample = dataclasses.replace(sample, points=pixels_of(sample.points, picture_px), irises=irises)
-        yield sample
-
-
-def _told(answers: Iterable[Sample], *, strict: bool) -> Iterator[Sample]:
-    """The answers, while runs of faulty lines are told; where ``strict``, the first one is an error."""
-    runs, number = FaultRuns(say), 0
-    for number, sample in enumerate(answers, start=1):
-        fault = sample.faults.get("points")
-        if fault is not None and strict:
-            raise InputError(f"line {number} has {fault.value}; without --strict its cells stay empty")
-        runs.step(number, fault)
-        yield sample
-    runs.step(number + 1, None)
-
-
-def _head_settings(camera: CameraSettings | None, calm: Frames | None) -> HeadSettings:
-    """What is known of the head; without a camera its pose does not leave."""
+def head_settings(camera: CameraSettings | None, calm: Frames | None) -> HeadSettings:
+    """Settings of the head: what is known of the head; without a camera its pose does not leave."""
     return HeadSettings(
         camera=camera or CameraSettings(),
         neutral=None if calm is None else calm.points,

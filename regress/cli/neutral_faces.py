@@ -8,6 +8,7 @@ from facegen.console import say
 from regress.cli.rows import sound_rows
 from regress.errors import InputError
 from regress.runtime.inputs import Frames, read_frames
+from regress.runtime.inputs.frames import FEWEST_PX
 from regress.runtime.model import Model
 from regress.runtime.stages.neutral import estimate_neutral, frame_rate
 
@@ -18,8 +19,8 @@ SHARES = (
 """Said of points in such a unit."""
 
 
-FEWEST_PX = 3.0
-"""A face's extent, below which its points are in another unit than pixels."""
+_MOST_LINES = 10
+"""Of folders or faces, of each of which there is something to say: of more it is summed up."""
 
 
 def in_pixels(frames: Frames, picture_px: tuple[int, int] | None) -> Frames:
@@ -71,7 +72,7 @@ def neutral_faces(model: Model, frames: Frames, neutral: str) -> dict[str | None
     if neutral == "none":
         return dict.fromkeys(takes)
     if neutral == "auto":
-        return {face: _found(model, take, _called(face)) for face, take in takes.items()}
+        return _found_faces(model, takes, frames)
     if neutral == "first":
         firsts = {face: np.flatnonzero(take.usable)[:1] for face, take in takes.items()}
         return {face: takes[face].take(rows) if len(rows) else None for face, rows in firsts.items()}
@@ -79,9 +80,16 @@ def neutral_faces(model: Model, frames: Frames, neutral: str) -> dict[str | None
     if any(named.values()):
         seen = {face: [row for row in rows if takes[face].usable[row]] for face, rows in named.items()}
         named = seen if any(seen.values()) else named  # of none, the networks say so themselves
-        for face in (face for face, rows in named.items() if not rows):
+        without = [face for face, rows in named.items() if not rows]
+        if len(without) > _MOST_LINES:
             say(
-                f"{frames.source}: weights{_called(face)} are not calibrated: --neutral names no usable frame of it"
+                f"{frames.source}: weights of {len(without)} of {len(named)} {frames.kind_of_takes}s are not "
+                "calibrated: --neutral names no usable frame of them"
+            )
+        for face in without if len(without) <= _MOST_LINES else ():
+            say(
+                f"{frames.source}: weights{_called(frames, face)} are not calibrated: --neutral names no usable "
+                "frame of it"
             )
         return {face: takes[face].take(rows) if rows else None for face, rows in named.items()}
     first, last = frames.labels[0], frames.labels[-1]
@@ -117,19 +125,38 @@ def neutral_file(neutral: str, source: str, *, labels: str = "") -> Frames:
     return sound_rows(read_frames(neutral))
 
 
-def _found(model: Model, take: Frames, called: str) -> Frames | None:
-    if not take.usable.any():
-        return None
-    estimate = estimate_neutral(model, take.points, frame_rate(take.time_s))
-    if not estimate.sure:
-        say(f"{take.source}: no neutral face found{called}, weights are not calibrated: {estimate.reason}")
-        return None
-    say(f"{take.source}: neutral face found{called}: {estimate.reason}")
-    return take.take(estimate.frames)
+def _found_faces(
+    model: Model, takes: dict[str | None, Frames], frames: Frames
+) -> dict[str | None, Frames | None]:
+    """Neutral frames of each take, where they are found; a line each says so, or one of many."""
+    found: dict[str | None, Frames | None] = {}
+    sentences = []
+    for face, take in takes.items():
+        found[face] = None
+        if not take.usable.any():
+            continue
+        estimate, called = (
+            estimate_neutral(model, take.points, frame_rate(take.time_s)),
+            _called(frames, face),
+        )
+        if estimate.sure:
+            found[face] = take.take(estimate.frames)
+            sentences.append(f"neutral face found{called}: {estimate.reason}")
+        else:
+            sentences.append(f"no neutral face found{called}, weights are not calibrated: {estimate.reason}")
+    if len(sentences) > _MOST_LINES:
+        sure = sum(each is not None for each in found.values())
+        sentences = [
+            f"neutral faces found of {sure} of {len(takes)} {frames.kind_of_takes}s, weights of the others are not "
+            "calibrated"
+        ]
+    for sentence in sentences:
+        say(f"{frames.source}: {sentence}")
+    return found
 
 
-def _called(face: str | None) -> str:
-    return "" if face is None else f" of face {face}"
+def _called(frames: Frames, face: str | None) -> str:
+    return "" if face is None else f" of {frames.kind_of_takes} {face}"
 
 
 def _rows_between(take: Frames, named: str) -> list[int]:

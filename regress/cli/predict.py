@@ -54,8 +54,8 @@ def predict(
             "--neutral",
             metavar="FRAME|FILE|first|auto|none",
             help="The person's neutral face: a frame of INPUT by its label, frames FIRST-LAST, another "
-            "file of landmarks, first, the first frame of each face or folder, auto, which looks for it, or none, as "
-            "without this option.",
+            "file of landmarks, first, the first frame of each face or folder or the first line with a face, auto, "
+            "which looks for it, or none, as without this option.",
         ),
     ] = None,
     strict: Annotated[
@@ -112,7 +112,8 @@ def predict(
     Example: regress predict take.csv --neutral 1 --one-euro 1 --out weights.csv
     """
     from regress.cli.camera import camera_settings
-    from regress.cli.landmark_take import model_and_input, predict_file, predict_pipe
+    from regress.cli.landmark_lines import predict_pipe
+    from regress.cli.landmark_take import model_and_input, predict_file
     from regress.cli.output import output_of
     from regress.cli.results import STANDARD_OUTPUT, check_targets
     from regress.errors import InputError

@@ -265,6 +265,8 @@ def _film_of_twenty(name: str, folder: Path, seen: list[int]) -> Path:
     [
         (["frame_1", "frame_2", "frame_10", "frame_11"], [1, 2, 10, 11]),
         (["a/7_l", "a/8_l"], [7, 8]),
+        (["a/7", "a/8", "a/10", "a/11", "b/still", "c/1", "c/2"], [7, 8, 10, 11, 12, 13, 14]),
+        (["a/7", "b/1", "b/2", "b/4", "b/5"], [0, 1, 2, 4, 5]),
         (["indoor_018", "indoor_090", "indoor_203"], None),
         (["1000", "1033", "1066"], None),
         (["a/1", "b/2"], None),

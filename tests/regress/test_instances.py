@@ -128,6 +128,47 @@ def test_irises_and_points_that_openpose_does_not_see_are_missing(tmp_path: Path
     assert np.isnan(read.irises).all()
 
 
+@pytest.mark.parametrize("count", [68, 70, 98, 133, 136, VERTICES])
+def test_faces_of_low_scores_in_an_array_are_none(count: int, tmp_path: Path):
+    scores = np.array([0.9, 0.01, 0.4])
+    pixels = np.random.default_rng(3).uniform(0, 900, (3, count, 2))
+    np.save(tmp_path / "a.npy", pixels)
+    bare = read_frames(tmp_path / "a.npy")
+    np.save(
+        tmp_path / "a.npy", np.concatenate([pixels, np.tile(scores[:, None, None], (1, count, 1))], axis=2)
+    )
+    read = read_frames(tmp_path / "a.npy")
+    assert read.usable.tolist() == [True, False, True]
+    np.testing.assert_array_equal(read.points[read.usable], bare.points[read.usable])
+    if bare.irises is not None:
+        assert np.isfinite(read.irises).all(axis=(1, 2)).tolist() == [True, False, True]
+
+
+@pytest.mark.parametrize("depths", [0.0, -0.1, 7.0])
+@pytest.mark.parametrize("shares", [False, True])
+def test_third_numbers_of_a_face_that_are_no_scores_are_left_alone(
+    depths: float, shares: bool, tmp_path: Path
+):
+    faces = np.concatenate(
+        [FACES / 2000 if shares else FACES, np.full((3, LANDMARK_COUNT, 1), depths)], axis=2
+    )
+    faces[:, ::2, 2] /= 2
+    np.save(tmp_path / "a.npy", faces)
+    assert read_frames(tmp_path / "a.npy").usable.all()
+    if shares:
+        faces[..., 2] = 0.1
+        np.save(tmp_path / "a.npy", faces)
+        assert read_frames(tmp_path / "a.npy").usable.all(), (
+            "shares of the picture's width, as MediaPipe's depths"
+        )
+
+
+def test_distances_in_metres_are_no_scores(tmp_path: Path):
+    faces = np.concatenate([FACES / 2000 - 0.2, np.full((3, LANDMARK_COUNT, 1), 0.25)], axis=2)
+    np.save(tmp_path / "a.npy", faces)
+    assert read_frames(tmp_path / "a.npy").usable.all()
+
+
 @pytest.mark.parametrize("depth", [0, 1])
 def test_an_array_of_meshes_has_landmarks_and_irises(depth: int, tmp_path: Path):
     meshes = np.random.default_rng(3).uniform(0, 900, (4, VERTICES, 2 + depth))

@@ -34,6 +34,14 @@ FILMS = {
     "lists of points": [_points(mesh) for mesh in MESHES],
     "lists of faces": [[_points(mesh)] for mesh in MESHES],
     "lists of numbers": np.concatenate([MESHES, MESHES[..., :1]], axis=2).tolist(),
+    "behind names": {
+        "landmarks": ["chin"],
+        "frames": [{"landmarks": [_points(each)]} for each in MESHES],
+    },
+    "behind files": {
+        "frames": ["a.png"],
+        "results": [{"faceLandmarks": ["mesh"], "landmark": _points(each)} for each in MESHES],
+    },
     "of TensorFlow": [[{"box": {"xMin": 1}, "keypoints": _points(mesh)}] for mesh in MESHES],
 }
 
@@ -46,6 +54,12 @@ def test_films_are_read_however_their_results_are_called(name: str, tmp_path: Pa
     assert read.labels == ("0", "1", "2")
     assert read.shares
     assert read.time_s is None
+
+
+def test_an_empty_list_of_faces_says_that_there_is_none(tmp_path: Path):
+    body = _points(MESHES[0])[:33]
+    results = [{"faceLandmarks": faces, "landmarks": [body]} for faces in ([_points(MESHES[0])], [])]
+    assert _read(tmp_path / "a.json", results).labels == ("0",)
 
 
 def test_one_result_is_a_picture_of_all_of_its_faces(tmp_path: Path):
@@ -66,6 +80,30 @@ def test_times_of_results_are_read_and_pictures_without_a_face_take_theirs(
     assert read.labels == ("0", "2")
     np.testing.assert_allclose(read.time_s, [1.0, 1.2])
     np.testing.assert_allclose(read.at_rate(10).time_s, [0, 0.2])
+
+
+def test_numbers_of_results_that_do_not_go_on_are_no_times(run, quick_model_folder: Path, tmp_path: Path):
+    mesh = 0.3 + 0.3 * MESHES[0]
+    results = [
+        {"timestamp": 0.02, "timeMs": "?", "time_ms": 100 * place, "faceLandmarks": [_points(mesh)]}
+        for place in range(12)
+    ]
+    np.testing.assert_allclose(_read(tmp_path / "a.json", results).time_s, np.arange(12) / 10)
+    for result in results:
+        del result["time_ms"]
+    read = _read(tmp_path / "a.json", results)
+    assert (read.time_s, read.odd_times) == (None, "timestamp")
+    for place, result in enumerate(results):
+        result["timestamp"] = 33 * place
+    _read(tmp_path / "a.json", results)
+    said = run("predict", quick_model_folder, tmp_path / "a.json")[2]
+    assert "if they are milliseconds, call the key timestamp_ms" in said
+
+
+@pytest.mark.parametrize("time", [1e30, 10**400])
+def test_a_time_after_all_times_is_refused(time: float, tmp_path: Path):
+    with pytest.raises(InputError, match="a timestamp is beyond 1e\\+19 s"):
+        _read(tmp_path / "a.json", {"timestamp": time, "faceLandmarks": [_points(MESHES[0])]})
 
 
 @pytest.mark.parametrize(

@@ -240,6 +240,28 @@ def test_a_pipe_gives_what_a_file_gives(run, quick_model: Model, quick_model_fol
             assert np.allclose([float(cell) for cell in row.split(",")[1:]], weights, atol=1e-6)
 
 
+def test_the_first_line_with_a_face_is_neutral_where_a_person_says_so(run, monkeypatch, tmp_path):
+    frames = drawn_faces(np.random.default_rng(4), 6)
+    lines = _lines(frames)
+    lines[0], lines[1] = "\n", "0 " * 136 + "\n"
+    frames[0], frames[1] = np.nan, 0
+    np.save(tmp_path / "faces.npy", frames)
+    options = ("--neutral", "first", "--keep-guessed-gaze")
+    code, of_file, err = run("predict", "landmarks-default", tmp_path / "faces.npy", *options)
+    assert code == 0, err
+    monkeypatch.setattr(sys, "stdin", io.StringIO("".join(lines)))
+    code, of_lines, err = run("predict", "landmarks-default", "-", *options)
+    assert code == 0, err
+    found, expected = (
+        [line.split(",")[1:] for line in text.splitlines()[1:]] for text in (of_lines, of_file)
+    )
+    assert found[:2] == expected[:2] == [[""] * 52] * 2
+    np.testing.assert_allclose(np.float64(found[2:]), np.float64(expected[2:]), atol=1e-5)
+    monkeypatch.setattr(sys, "stdin", io.StringIO("\n" * 3))
+    code, of_lines, err = run("predict", "landmarks-default", "-", *options)
+    assert (code, len(of_lines.splitlines())) == (0, 4), err
+
+
 def test_each_line_leaves_before_the_next_arrives(quick_model: Model):
     taken = []
 

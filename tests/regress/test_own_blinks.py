@@ -316,8 +316,15 @@ def test_blinks_of_films_are_stretched_unasked_unless_somebody_changes_lids():
     )
     assert brows.with_own_blinks(film=True) == replace(brows, own_blinks=True, few_told=False)
     assert brows.with_own_blinks(film=False) == brows
+    named = dict.fromkeys(("eyeBlinkLeft", "eyeBlinkRight"), ShapeAdjustment())
+    spared = Output(adjustments={"*": ShapeAdjustment(gain=2.0), **named})
+    assert spared.with_own_blinks(film=True).own_blinks
     for lids in (
         Output(adjustments={"eyeBlinkRight": ShapeAdjustment(gain=2.0)}),
+        *(
+            Output(adjustments={"*": ShapeAdjustment(**change)})
+            for change in ({"gain": 2.0}, {"offset": 0.1}, {"low": 0.1}, {"high": 0.9})
+        ),
         Output(amplify_eyes=1.5),
     ):
         assert lids.with_own_blinks(film=True) == lids

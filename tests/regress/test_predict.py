@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from facegen.conventions import BLENDSHAPES
+from facegen.formats import write_pts
 from regress.cli.neutral_faces import named_rows
 from regress.learning.training import KeypointDataset
 from regress.runtime.inputs import Frames
@@ -183,6 +184,27 @@ def test_a_face_whose_neutral_frames_are_lost_keeps_nobody_else_from_theirs(run,
     code, out, said = run("predict", tmp_path / "take.csv", "--neutral", "1")
     assert (code, len(out.splitlines())) == (0, 5), said
     assert "weights of face 1 are not calibrated: --neutral names no usable frame of it" in said
+
+
+@pytest.mark.parametrize("count", [2, 10, 12])
+def test_folders_are_called_folders_and_many_are_summed_up(count: int, run, tmp_path: Path):
+    for number, face in enumerate(drawn_faces(np.random.default_rng(8), count + 1)):
+        folder = tmp_path / "root" / f"{max(number, 1):02d}"
+        folder.mkdir(parents=True, exist_ok=True)
+        write_pts(folder / f"{number}.pts", face)
+    for neutral, one, all_ in (
+        ("auto", "no neutral face found of folder 02, ", f"neutral faces found of 0 of {count} folders"),
+        (
+            "01/0",
+            "weights of folder 02 are not calibrated",
+            f"weights of {count - 1} of {count} folders are not",
+        ),
+    ):
+        code, _, said = run("predict", "landmarks-default", tmp_path / "root", "--neutral", neutral)
+        assert code == 0, said
+        assert (one in said, all_ in said) == (count <= 10, count > 10)
+    code, _, said = run("predict", tmp_path / "root", "--fps", 30, "--format", "livelink")
+    assert f"folder 01 is written, with 2 of {count + 1} rows" in said
 
 
 def test_a_neutral_frame_without_a_face_is_refused_in_a_sentence(run, tmp_path: Path):

@@ -135,3 +135,25 @@ def test_other_units_are_refused_where_a_picture_is_named(given, piped, run, tmp
         assert code == 2
         assert "points are neither pixels nor shares of the picture" in said
     given(other)
+
+
+@pytest.mark.parametrize("width", [1.0, 0.15])
+def test_points_about_a_middle_at_zero_are_no_shares(width: float, given, piped):
+    """Face widths or metres; a file and a pipe stretched them to the picture's shape."""
+    faces = _faces()
+    about = faces - faces.mean(axis=1, keepdims=True)
+    about *= width / np.ptp(about[0, :, 0])
+    known, _ = given(1000 * about, "--neutral", 0)
+    found, said = given(about, "--neutral", 0)
+    np.testing.assert_allclose(found, known, atol=2e-5)
+    assert TOLD not in said
+    code, _, said = piped(about, "--picture", "1280x720")
+    assert code == 2
+    assert "points are neither pixels nor shares of the picture" in said
+
+
+def test_faces_in_a_picture_s_corner_are_shares(given):
+    corner = _faces() - _faces()[:2].reshape(-1, 2).min(axis=0) - 10
+    found, said = given(_shares(corner), "--picture", "1280x720")
+    np.testing.assert_allclose(found, given(corner, "--picture", "1280x720")[0], atol=2e-5)
+    assert TOLD not in said

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from facegen.conventions import LANDMARK_COUNT
+from facegen.errors import FormatError
 from regress.errors import InputError
 from regress.runtime.inputs import read_frames
 from regress.runtime.inputs.mesh import VERTICES, irises_of, landmarks_of
@@ -123,6 +124,69 @@ def test_times_are_read_of_any_table(column: str, second: float, tmp_path: Path)
 def test_a_column_of_other_text_is_no_time(tmp_path: Path):
     rows = [{"time": time, **_points(FACE)} for time in ("0.1", "12:30:01")]
     assert read_frames(_written(tmp_path / "a.csv", *rows)).time_s is None
+
+
+@pytest.mark.parametrize(
+    "times",
+    [
+        np.random.default_rng(5).uniform(0.02, 0.03, 40),  # what each frame took
+        np.tile(np.arange(20) / 30, 2),  # two clips, one after the other
+        1.7e9 + np.arange(40) // 30,
+        np.zeros(40),
+    ],
+)
+def test_numbers_that_do_not_go_on_are_no_times(
+    times: np.ndarray, run, quick_model_folder: Path, tmp_path: Path
+):
+    rows = [{"time": float(time), **_points(FACE)} for time in times]
+    path = _written(tmp_path / "a.csv", *rows)
+    read = read_frames(path)
+    assert (read.time_s, read.odd_times) == (None, "time")
+    code, _, said = run("predict", quick_model_folder, path)
+    assert code == 0
+    assert said.count("the column time does not go on from frame to frame, so there are no times; --fps") == 1
+    assert "no times are given" not in said
+    code, _, said = run("predict", quick_model_folder, path, "--one-euro", 1)
+    assert code == 2, "rows would be lost for it"
+    assert "does not go on" not in run("predict", quick_model_folder, path, "--fps", 30)[2]
+    openface = _written(
+        tmp_path / "b.csv", *({"success": 1, "timestamp": row["time"], **row} for row in rows)
+    )
+    np.testing.assert_array_equal(read_frames(openface).time_s, times)
+    said = run("predict", quick_model_folder, openface)[2]
+    told = "its times do not go on from frame to frame, so weights are not filtered" in said
+    assert told == (np.median(np.diff(times)) <= 0)
+
+
+def test_times_that_are_set_back_once_or_stand_for_a_while_are_times(tmp_path: Path):
+    times = np.arange(60) / 30
+    times[[5, 30, 31]] = times[[4, 28, 29]]
+    rows = [{"time": float(time), **_points(FACE)} for time in times]
+    np.testing.assert_array_equal(read_frames(_written(tmp_path / "a.csv", *rows)).time_s, times)
+
+
+@pytest.mark.parametrize("beside", ["12:30:01", 0.02])
+def test_what_is_no_time_hides_no_time_beside_it(beside: object, tmp_path: Path):
+    rows = [{"time_s": beside, "timestamp": number / 30, **_points(FACE)} for number in range(3)]
+    read = read_frames(_written(tmp_path / "a.csv", *rows))
+    np.testing.assert_array_equal(read.time_s, np.arange(3) / 30)
+    assert read.odd_times is None
+
+
+def test_a_column_that_stands_twice_is_refused_where_it_counts(tmp_path: Path):
+    row = {"time": 1, "Time": 2, **_points(FACE)}
+    path = _written(tmp_path / "a.csv", row)
+    path.write_text(path.read_text().replace("Time", "time"))
+    with pytest.raises(FormatError, match="has several columns time;"):
+        read_frames(path)
+    path = _written(tmp_path / "a.csv", {**row, "timestamp": 3})
+    path.write_text(path.read_text().replace("Time", "time"))
+    assert read_frames(path).time_s == [3]
+
+
+def test_units_go_before_bare_names(tmp_path: Path):
+    row = {"timestamp": 60, "time": 50, "time_ms": 70, **_points(FACE)}
+    assert read_frames(_written(tmp_path / "a.csv", row)).time_s == [0.07]
 
 
 def test_seconds_go_before_other_columns_of_time(tmp_path: Path):

@@ -1,5 +1,6 @@
 """NumPy files of landmarks, (n, k, 2) of any known order (`orders`), or an archive of one; a face needs no n."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,8 +8,9 @@ import numpy as np
 from facegen.archives import load_npy, load_npz
 from facegen.conventions import LANDMARK_COUNT
 from regress.errors import InputError
-from regress.runtime.inputs.frames import MOST_FRAMES, Frames
-from regress.runtime.inputs.orders import COUNTS, COUNTS_SAID, split_irises
+from regress.runtime.inputs.frames import FEWEST_PX, MOST_FRAMES, Frames
+from regress.runtime.inputs.instances import has_face
+from regress.runtime.inputs.orders import BODIES, COUNTS, COUNTS_SAID, split_irises
 
 _MOST_BYTES = MOST_FRAMES * (LANDMARK_COUNT + 2) * 2 * 8
 """Of as many frames as are read, in float64."""
@@ -20,7 +22,11 @@ def is_array(path: Path) -> bool:
 
 
 def read_array(path: Path) -> Frames:
-    """Frames in the array's order; labels count from 0. A third coordinate is a depth, and left alone."""
+    """Frames in the array's order; labels count from 0.
+
+    A third number of a point is a depth, and left alone, or a score as pose estimators give it: a face of low ones is
+    none.
+    """
     points = _array(path)
     if points.ndim == 2 and len(points) in COUNTS and points.shape[1] in (2, 3):
         points = points[None]
@@ -33,10 +39,27 @@ def read_array(path: Path) -> Frames:
     if points.dtype.kind not in "fiu":
         raise InputError(f"{path} holds {points.dtype}; numbers are needed")
     with np.errstate(invalid="ignore"):  # signalling NaNs are missing points as others are
-        points = points[..., :2].astype(np.float64)
-    faces, irises = split_irises(points)
+        points = points.astype(np.float64)
+    faces, irises = split_irises(points[..., :2])
     labels = tuple(map(str, range(len(points))))
-    return Frames(points=faces, labels=labels, time_s=None, source=str(path), irises=irises)
+    frames = Frames(points=faces, labels=labels, time_s=None, source=str(path), irises=irises)
+    if not _has_scores(points, frames):
+        return frames
+    seen = has_face(split_irises(points)[0][..., 2])[:, None, None]
+    irises = None if irises is None else np.where(seen, irises, np.nan)
+    return replace(frames, points=np.where(seen, faces, np.nan), irises=irises)
+
+
+def _has_scores(points: np.ndarray, frames: Frames) -> bool:
+    """Whether third numbers of points (n, k, 2 or 3) are scores: of bodies, and from 0 to 1 beside pixels.
+
+    Zeros alone stand where nothing is known.
+    """
+    third = points[..., 2:]
+    third = third[np.isfinite(third)]
+    if not third.any():
+        return False
+    return points.shape[1] in BODIES or (third.min() >= 0 and third.max() <= 1 and frames.extent >= FEWEST_PX)
 
 
 def _array(path: Path) -> np.ndarray:

@@ -1,6 +1,6 @@
 """Frames of landmarks, whatever file they came from."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
@@ -12,14 +12,21 @@ from regress.errors import InputError
 from regress.runtime.inputs.faults import face_faults
 from regress.runtime.inputs.orders import split_irises
 from regress.runtime.inputs.people import people_of
+from regress.runtime.inputs.times import LATEST_S, TIMES, go_on
 from regress.runtime.sample import Sample
 
 MOST_FRAMES = 1_000_000
 """Of one file or folder: nine hours at 30 a second, and 1.1 GB of points."""
 
 
+FEWEST_PX = 3.0
+"""A face's extent, below which its points are in another unit than pixels."""
+
 _REACH = (-0.5, 1.5)
 """Of shares: a face at a picture's edge has points outside."""
+
+_BEYOND_CORNER = 0.2
+"""Share of points left of a picture, and of those above it, from which on both tell of a middle at 0."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,6 +53,8 @@ class Frames:
         What the picture that each is of is called, where pictures have several faces with labels of their own.
     picture_px
         Width and height of the pictures, where the file tells and all have the same.
+    odd_times
+        What the file calls numbers that have a time's name and do not go on as times do.
     """
 
     points: np.ndarray
@@ -57,11 +66,17 @@ class Frames:
     faces: tuple[str, ...] | None = None
     picture_names: tuple[str, ...] | None = None
     picture_px: tuple[int, int] | None = None
+    odd_times: str | None = None
 
     @property
     def usable(self) -> np.ndarray:
         """(n,) bool: frames whose every point is a number."""
         return np.isfinite(self.points).all(axis=(1, 2))
+
+    @property
+    def kind_of_takes(self) -> str:
+        """What people call a take, where there are several: faces of pictures, or folders (`of_folders`)."""
+        return "folder" if self.picture_names is None else "face"
 
     @property
     def shares(self) -> bool:
@@ -96,6 +111,7 @@ class Frames:
             faces=_rows_of(self.faces, rows),
             picture_names=_rows_of(self.picture_names, rows),
             picture_px=self.picture_px,
+            odd_times=self.odd_times,
         )
 
     def takes(self) -> dict[str | None, np.ndarray]:
@@ -130,9 +146,14 @@ def _rows_of(names: tuple[str, ...] | None, rows: np.ndarray | list[int]) -> tup
 
 
 def are_shares(points: np.ndarray) -> bool:
-    """Whether most of points (..., 2) lie in a picture or about it, as shares of it: no face in pixels is so small."""
+    """Whether most of points (..., 2) lie in a picture or about it, as shares of it: no face in pixels is so small.
+
+    Points about a middle at 0 are small as well, as in metres: many are negative in x, and many in y.
+    """
     least, most = _REACH
-    return bool(np.mean(((points >= least) & (points <= most)).all(axis=-1)) > 0.5)
+    small = np.mean(((points >= least) & (points <= most)).all(axis=-1)) > 0.5
+    negative = (points < 0).reshape(-1, 2).mean(axis=0)
+    return bool(small and negative.min() < _BEYOND_CORNER)
 
 
 def pixels_of(shares: np.ndarray, picture_px: tuple[int, int]) -> np.ndarray:
@@ -166,6 +187,34 @@ def of_pictures(
 def of_folders(frames: Frames, folders: Sequence[str]) -> Frames:
     """The frames as a take for each of the folders that they lie in: films, and people, of their own."""
     return frames if len(set(folders)) < 2 else replace(frames, faces=tuple(folders))
+
+
+def timed(frames: Frames, told: Mapping[str, np.ndarray], *, sure: bool = False) -> Frames:
+    """The frames with the first times that go on from frame to frame in the longest take; without, where none do.
+
+    Parameters
+    ----------
+    frames
+        Without times.
+    told
+        Numbers (n,) of each frame by a name in `TIMES`, the first choice first.
+    sure
+        Whether they are times, whatever they hold.
+
+    Raises
+    ------
+    InputError
+        Where a time is beyond `LATEST_S`.
+    """
+    rows = max(frames.takes().values(), key=len)
+    for name, numbers in told.items():
+        if not sure and not go_on(numbers[rows]):
+            continue
+        time_s = numbers * TIMES[name]
+        if (np.abs(time_s) > LATEST_S).any():
+            raise InputError(f"{frames.source}: a {name} is beyond {LATEST_S:g} s")
+        return replace(frames, time_s=time_s)
+    return replace(frames, odd_times=next(iter(told), None))
 
 
 def stacked(faces: Iterable[np.ndarray], path: Path) -> tuple[np.ndarray, np.ndarray | None]:

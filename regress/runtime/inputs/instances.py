@@ -115,8 +115,12 @@ def _instance(instance: Any, path: Path, picture: int) -> np.ndarray | None:
 
 def scored(face: np.ndarray) -> np.ndarray:
     """Points (k, 2) of a face with a score behind each (k, 3); NaN where the mean score says that there is none."""
-    seen = face[:LANDMARK_COUNT, 2].mean() >= SCORE_LEAST
-    return face[:, :2] if seen else np.full((len(face), 2), np.nan)
+    return face[:, :2] if has_face(face[:LANDMARK_COUNT, 2]) else np.full((len(face), 2), np.nan)
+
+
+def has_face(scores: np.ndarray) -> np.ndarray:
+    """Whether scores (..., 68) of points say that there is a face (...)."""
+    return scores.mean(axis=-1) >= SCORE_LEAST
 
 
 def _numbers(given: Any, path: Path) -> np.ndarray:

@@ -4,6 +4,7 @@ A picture's result has lists of points ``{x, y, z}``, one for each face, under `
 other names; a film is a list of results, or of such lists alone. Points are shares of a picture's width and height.
 """
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -11,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from regress.errors import InputError
-from regress.runtime.inputs.frames import Frames, of_pictures, stacked
+from regress.runtime.inputs.frames import Frames, of_pictures, stacked, timed
 from regress.runtime.inputs.orders import COUNTS, COUNTS_SAID, seventy
-from regress.runtime.inputs.times import LATEST_S, TIMES, time_name
+from regress.runtime.inputs.times import LATEST_S, time_names
 
 _FACES = (
     "faceLandmarks",
@@ -57,16 +58,17 @@ def read_parsed(document: Any, path: Path) -> Frames:
     frames = Frames(
         points=points,
         labels=tuple(labels),
-        time_s=_times(pictures, of, path),
+        time_s=None,
         source=str(path),
         irises=irises,
     )
-    return of_pictures(frames, of, list(map(str, of)))
+    return timed(of_pictures(frames, of, list(map(str, of))), _times([pictures[number] for number in of]))
 
 
 def _pictures(document: Any) -> list[Any]:
     if isinstance(document, dict):
-        film = next((document[key] for key in _FILMS if isinstance(document.get(key), list)), None)
+        lists = (document[key] for key in _FILMS if isinstance(document.get(key), list))
+        film = next((each for each in lists if is_document(each)), None)
         return [document] if film is None else film
     return [document] if _is_face(document) else document
 
@@ -83,9 +85,15 @@ def _faces_in(node: Any, depth: int = 0) -> Iterator[list[Any]]:
                 yield from _faces_in(each, depth + 1)
     elif isinstance(node, dict):
         for key in (*_FACES, *_FILMS):
-            if isinstance(node.get(key), list):
-                yield from _faces_in(node[key], depth + 1)
-                return
+            if not isinstance(node.get(key), list):
+                continue
+            faces = _faces_in(node[key], depth + 1)
+            first = next(faces, None)
+            if first is not None:
+                yield first
+                yield from faces
+            if first is not None or not node[key]:
+                return  # an empty list says that there is no face; names of points say nothing
 
 
 def _is_face(node: Any) -> bool:
@@ -118,14 +126,16 @@ def _points(face: list[Any], path: Path, picture: int) -> np.ndarray:
     return seventy(points)
 
 
-def _times(pictures: list[Any], of: list[int], path: Path) -> np.ndarray | None:
-    """Seconds of each face's picture, where every picture with a face says its own."""
-    seconds = []
-    for picture in (pictures[number] for number in of):
-        name = time_name(picture) if isinstance(picture, dict) else None
-        if name is None or not isinstance(picture[name], int | float):
-            return None
-        if abs(picture[name]) > LATEST_S:
-            raise InputError(f"{path}: a {name} is beyond {LATEST_S:g} s")
-        seconds.append(picture[name] * TIMES[name])
-    return np.array(seconds)
+def _times(pictures: list[Any]) -> dict[str, np.ndarray]:
+    """Numbers by a time's name, of each face's picture, where every picture with a face says its own."""
+    if not all(isinstance(picture, dict) for picture in pictures):
+        return {}
+    names = time_names(pictures[0])
+    told = {name: [picture.get(name) for picture in pictures] for name in names}
+    return {
+        name: np.array(
+            [math.inf if abs(number) > LATEST_S else number for number in numbers], dtype=np.float64
+        )
+        for name, numbers in told.items()
+        if all(isinstance(number, int | float) for number in numbers)
+    }

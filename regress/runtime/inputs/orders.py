@@ -49,6 +49,9 @@ _ORDERS: dict[int, Callable[[np.ndarray], _Split]] = {
 COUNTS = tuple(_ORDERS)
 """How many points a face may have."""
 
+BODIES = (133, 136)
+"""Of these, those of whole bodies, as pose estimators find them."""
+
 COUNTS_SAID = (
     "68 in iBUG's order, 70 with the irises, 98 in WFLW's, 133 or 136 of a whole body (COCO-WholeBody, Halpe), or 468 "
     "or 478 of MediaPipe's mesh"

@@ -62,10 +62,13 @@ def read_folder(path: Path) -> Frames:
 
 
 def _numbers(names: Sequence[str], folders: Sequence[str]) -> np.ndarray | None:
-    """What names count in each folder, those of a folder behind those of the one before."""
+    """What names count in each folder, those of a folder behind those of the one before; one picture counts nothing."""
+    films = [[names[row] for row in rows] for _, rows in groupby(range(len(names)), key=folders.__getitem__)]
+    if all(len(film) == 1 for film in films):
+        return None
     numbers: list[np.ndarray] = []
-    for _, rows in groupby(range(len(names)), key=folders.__getitem__):
-        counted = _counted([names[row] for row in rows])
+    for film in films:
+        counted = _counted(film) if len(film) > 1 else np.zeros(1, dtype=np.int64)
         if counted is None:
             return None
         numbers.append(counted - counted[0] + numbers[-1][-1] + 1 if numbers else counted)

@@ -16,10 +16,10 @@ from facegen.conventions import LANDMARK_COUNT
 from facegen.formats.csv_rows import CsvRows, number_in, numbers_in
 from regress.errors import InputError
 from regress.runtime.inputs.columns import point_columns
-from regress.runtime.inputs.frames import Frames, stacked
+from regress.runtime.inputs.frames import Frames, stacked, timed
 from regress.runtime.inputs.orders import seventy
 from regress.runtime.inputs.people import people_of, places_of
-from regress.runtime.inputs.times import LATEST_S, TIMES, time_name
+from regress.runtime.inputs.times import time_names
 
 _EDGE = 8
 """Points about the edge of an iris, the first of OpenFace's 28 of each eye."""
@@ -42,7 +42,7 @@ _TRUST_LEAST = 0.5
 _PEOPLE = ("face_id", "Identity")
 """Which person a face is, as OpenFace and py-feat call it."""
 
-_OTHERS = ("frame", "success", *TIMES, *_TRUST, *_SIZE, *_PEOPLE)
+_OTHERS = ("frame", "success", *_TRUST, *_SIZE, *_PEOPLE)
 
 
 def is_table(path: Path) -> bool:
@@ -72,14 +72,13 @@ def _shown(table: CsvRows) -> tuple[str, ...]:
 
 def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
     columns = table.columns
-    time = _time_column(table)
+    told: dict[str, list[float | None]] = {name: [] for name in _time_columns(table)}
     person = next((columns[name] for name in _PEOPLE if name in columns), None)
     said = [name for name in ("success", *_TRUST, *_SIZE) if name in columns]
     names = (*shown, *said)
     picked = [columns[name] for name in names]
     labels: list[str] = []
     people: list[str] = []
-    time_s: list[float] = []
     sizes_px: set[tuple[float, ...]] = set()
 
     def faces() -> Iterator[np.ndarray]:
@@ -88,8 +87,8 @@ def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
             of_row = dict(zip(said, numbers[len(shown) :].tolist(), strict=False))
             labels.append(row[columns["frame"]].strip() if "frame" in columns else str(number))
             people.append("" if person is None else row[person].strip())
-            if time is not None:
-                time_s.append(_seconds(table, row, time))
+            for name, cells in told.items():
+                cells.append(_time(table, row, name))
             size_px = tuple(of_row.get(name, math.nan) for name in _SIZE)
             if all(1 <= side <= _LARGEST_PX for side in size_px):
                 sizes_px.add(size_px)
@@ -97,9 +96,7 @@ def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
             yield points if _is_face(of_row) else np.full_like(points, np.nan)
 
     points, irises = stacked(faces(), table.path)
-    timed = time is not None and not any(second is None for second in time_s)
-    if timed and any(abs(second) > LATEST_S for second in time_s):
-        raise InputError(f"{table.path}: a {time} is beyond {LATEST_S:g} s")
+    times = {name: np.array(cells) for name, cells in told.items() if None not in cells}
     numbers = _counted(labels) if "frame" in columns else None
     face_ids = _told_apart(labels, people, np.isfinite(points).all(axis=(1, 2)))
     if face_ids is not None and numbers is not None and (np.diff(numbers) < 0).any():
@@ -108,7 +105,7 @@ def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
         points, numbers = points[order], numbers[order]
         irises = None if irises is None else irises[order]
         labels, face_ids = [labels[row] for row in order], [face_ids[row] for row in order]
-        time_s = [time_s[row] for row in order] if timed else time_s
+        times = {name: numbers_of[order] for name, numbers_of in times.items()}
     elif numbers is not None and (np.diff(numbers) < 0).any():
         numbers = None
     several = len(set(labels)) < len(labels)
@@ -117,10 +114,10 @@ def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
     names = tuple(labels)
     if several:
         labels = [f"{frame}/{face}" for frame, face in zip(labels, face_ids, strict=True)]
-    return Frames(
+    frames = Frames(
         points=points,
         labels=tuple(labels),
-        time_s=np.array(time_s) if timed else None,
+        time_s=None,
         source=str(table.path),
         irises=irises,
         numbers=numbers,
@@ -128,6 +125,7 @@ def _frames(table: CsvRows, shown: tuple[str, ...]) -> Frames:
         picture_names=names if several and numbers is not None else None,
         picture_px=tuple(map(round, *sizes_px)) if len(sizes_px) == 1 else None,
     )
+    return timed(frames, times, sure=_of_openface(table))
 
 
 def _landmarks(points: np.ndarray) -> np.ndarray:
@@ -138,19 +136,28 @@ def _landmarks(points: np.ndarray) -> np.ndarray:
     return seventy(points)
 
 
-def _time_column(table: CsvRows) -> str | None:
-    """The column of times, if there is one."""
-    if "success" in table.columns and "timestamp" in table.columns:
-        return "timestamp"  # as OpenFace writes it
-    return time_name(table.columns)
+def _of_openface(table: CsvRows) -> bool:
+    return {"success", "timestamp"} <= table.columns.keys()
 
 
-def _seconds(table: CsvRows, row: list[str], name: str) -> float | None:
-    """Time of a row; None where a column of that name holds something else, as the hour of a clock."""
-    if "success" in table.columns:
-        return float(_numbers(table, row, (name,), [table.columns[name]])[0]) * TIMES[name]
+def _time_columns(table: CsvRows) -> tuple[str, ...]:
+    """Columns that may be of times; of one that stands twice another goes before."""
+    if _of_openface(table):
+        names = ("timestamp",)
+    else:
+        names = time_names(table.columns)
+    once = tuple(name for name in names if name not in table.twice)
+    if not once:
+        table.check(names)
+    return once
+
+
+def _time(table: CsvRows, row: list[str], name: str) -> float | None:
+    """Number of a row; None where a column of that name holds something else, as the hour of a clock."""
+    if _of_openface(table):
+        return float(_numbers(table, row, (name,), [table.columns[name]])[0])
     try:
-        return number_in(row[table.columns[name]]) * TIMES[name]
+        return number_in(row[table.columns[name]])
     except ValueError:
         return None
 

@@ -85,10 +85,10 @@ class Output:
 
     @property
     def changes_lids(self) -> bool:
-        """Whether somebody has said how blinks are to be changed."""
-        return self.amplify_eyes != 1 or any(
-            BLENDSHAPES[index] in self.adjustments for index in BLINK_INDICES
-        )
+        """Whether somebody has said how blinks are to be changed; a dead zone alone leaves the full ones."""
+        every = self.adjustments.get("*", ShapeAdjustment())
+        lids = [self.adjustments.get(BLENDSHAPES[index], every) for index in BLINK_INDICES]
+        return self.amplify_eyes != 1 or any(replace(lid, dead_zone=0.0) != ShapeAdjustment() for lid in lids)
 
     def with_own_blinks(self, *, film: bool) -> "Output":
         """The output with own blinks, unasked, of a film; as it is otherwise, and where lids are changed."""

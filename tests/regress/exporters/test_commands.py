@@ -1,14 +1,23 @@
 """``regress export`` and ``regress report``, as a person runs them."""
 
+import io
+import re
 from importlib import import_module
+from pathlib import Path
 
 import numpy as np
+import onnxruntime
 import pytest
 
 from regress.cli import main
+from regress.cli.export import export
 from regress.learning.training import Recipe, train
+from regress.runtime.inputs import read_frames
 from regress.runtime.model import save_model
 from tests.regress.drawn import drawn_dataset, drawn_faces
+
+DOCS = Path(__file__).resolve().parents[3] / "docs"
+TALKING = DOCS / "samples" / "talking-face.csv"
 
 
 @pytest.fixture(scope="module")
@@ -47,6 +56,20 @@ def test_export_writes_all_formats_and_names_them(run, folder, tmp_path, capsys)
     }
     printed = capsys.readouterr().out
     assert all(name in printed for name in written)
+
+
+def test_the_command_with_which_exports_agree_is_the_one_that_is_named(run, tmp_path, capsys):
+    page, said = (DOCS / "exports.md").read_text(encoding="utf-8"), " ".join(export.__doc__.split())
+    (options,) = {
+        named for text in (page, said) for named in re.findall(r"`regress predict (--[^`]+)`", text)
+    }
+    assert run("predict", "landmarks-default", TALKING, "--neutral", "1", *options.split()) == 0
+    said = np.loadtxt(io.StringIO(capsys.readouterr().out), delimiter=",", skiprows=1)[:, -52:]
+    assert run("export", "landmarks-default", "--format", "onnx", "--out", tmp_path) == 0
+    points = read_frames(TALKING).points.astype(np.float32)
+    session = onnxruntime.InferenceSession(tmp_path / "face.onnx")
+    (weights,) = session.run(None, {"points": points, "neutral": points[:1]})
+    np.testing.assert_allclose(said, weights, atol=1e-4, rtol=0)
 
 
 def test_export_writes_one_format(run, folder, tmp_path):

@@ -97,6 +97,12 @@ def test_page_opens_with_both_figures_of_both_kinds_of_points(model, page):
     shown = re.findall(r"</td><td>([^<]+)</td>", opening)
     assert [float(text.replace("\N{MINUS SIGN}", "-")) for text in shown] == pytest.approx(floors, abs=6e-4)
     assert "always the same way" not in opening
+    assert "its ridge is trained on exact points, as the networks are, and a dash" in opening, (
+        "nothing displaced"
+    )
+    record = dataclasses.replace(model.record, recipe=model.record.recipe | {"noise": {}})
+    noisy = render_page(content_of(dataclasses.replace(model, record=record)))
+    assert "its ridge is trained on the networks' own displaced rows, and a dash" in noisy
     old = {name: means for name, means in model.record.as_detected.items() if "ridge" not in name}
     old = dataclasses.replace(model, record=dataclasses.replace(model.record, as_detected=old))
     opening = render_page(content_of(old)).partition("<nav")[0]
