@@ -12,6 +12,7 @@ from regress.runtime.headset.person.neutral import read_neutral
 from regress.runtime.headset.pictures.bars import FEWEST_PICTURES, LOOKED_AT, bars_of
 from regress.runtime.headset.pictures.picture_file import fit_picture
 from regress.runtime.headset.pictures.placement import NO_CUT, CameraPlacement
+from regress.runtime.headset.recordings.film_frames import Film
 from regress.runtime.headset.recordings.footage import line_up
 from regress.runtime.headset.recordings.recording import read_recording
 from regress.runtime.headset.recordings.soundness import PictureSoundness
@@ -159,18 +160,24 @@ def test_what_is_cut_is_as_if_it_had_never_been_there(placement, bars):
     )
 
 
-@pytest.mark.parametrize("kind", ["folder", "film"])
+@pytest.mark.parametrize("kind", ["folder", "folder of 10 bits", "film", "film without a length"])
 def test_a_take_with_bars_is_seen_without_them_and_it_is_told(tmp_path: Path, kind: str):
-    plain = shown(64, 64, 16)
+    plain = shown(64, 64, 64)
     seen = barred(plain, (0, 16, 0, 16))
-    path = write_pictures(tmp_path / "left_eye", seen)
+    path = write_pictures(tmp_path / "left_eye", seen.astype(np.uint16) * 4 if "bits" in kind else seen)
     if kind == "film":
         path = tmp_path / "left_eye.avi"
         film = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*"MJPG"), 30, (64, 96))
         for picture in seen:
             film.write(cv2.cvtColor(picture, cv2.COLOR_GRAY2BGR))
         film.release()
-    found = read_recording(path, "left_eye", width=VIEW[0], height=VIEW[1])
+    if kind == "film without a length":
+        path = tmp_path / "left_eye.mjpeg"
+        path.write_bytes(b"".join(cv2.imencode(".jpg", one)[1].tobytes() for one in seen))
+        with Film(path) as opened:
+            assert opened.length == 0
+    bits = 10 if "bits" in kind else None
+    found = read_recording(path, "left_eye", width=VIEW[0], height=VIEW[1], bits=bits)
     assert np.abs(found.pictures.astype(int) - plain).mean() < 4
     assert found.pictures[:, [0, -1]].mean() > 60
     (note,) = line_up({"left_eye": found}, {"left_eye": VIEW}).notes

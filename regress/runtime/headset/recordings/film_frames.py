@@ -17,6 +17,9 @@ from regress.runtime.even_rows import even_rows
 _FEWER = 0.02
 """Share of a film's frames, and two at least, that may be lacking untold: some containers estimate their number."""
 
+_BETWEEN = 8
+"""Frames from one to the next that are looked at where a film does not say how many there are."""
+
 _COUNTED = (".avi", ".mp4", ".m4v", ".mov", ".3gp")
 """Films that say how many frames they have. Of others OpenCV takes how long they last times their rate, which frames
 that a camera dropped on the way are not lacking from: those end early whose last frame does."""
@@ -102,7 +105,13 @@ class Film:
         )
 
     def spread(self, count: int) -> Iterator[np.ndarray]:
-        """So many grey pictures all over the film, as far as it can be wound; before its frames are read."""
+        """So many grey pictures all over the film, as far as it can be wound; before its frames are read.
+
+        Of a film that does not say how long it is they are from its beginning.
+        """
+        if not self.length:
+            yield from (frame.grey for frame in self.frames(set(range(0, count * _BETWEEN, _BETWEEN))))
+            return
         for row in even_rows(self.length, count):
             self._film.set(cv2.CAP_PROP_POS_FRAMES, float(row))
             try:
