@@ -29,7 +29,7 @@ public class FaceWeights : MonoBehaviour
     // it smooths over as long a time.
     [Range(.05f, 1f)] public float newest = .5f;
     float[] shown;
-    float shownAt = float.NegativeInfinity;
+    double shownAt = double.NegativeInfinity;
     Worker worker;
     readonly List<Shape> shapes = new List<Shape>();
 
@@ -131,8 +131,10 @@ public class FaceWeights : MonoBehaviour
 
     void Show(float[] weights)
     {
-        double kept = newest < 1 ? System.Math.Pow(1 - newest, 30 * (Time.time - shownAt)) : 0;
-        shownAt = Time.time;
+        // Unscaled time goes on in a paused game. Of several frames at one time the newest is shown.
+        double step = Time.unscaledTimeAsDouble - shownAt;
+        double kept = newest < 1 && step > 0 ? System.Math.Pow(1 - newest, 30 * step) : 0;
+        shownAt = Time.unscaledTimeAsDouble;
         for (int i = 0; i < shown.Length; i++)
             if (!float.IsNaN(weights[i]))
                 shown[i] += (float)(1 - kept) * (weights[i] - shown[i]);

@@ -51,8 +51,8 @@ public sealed class HeadsetWeights : IDisposable
             session = new InferenceSession(graph, options);
     }
 
-    // Grey pictures by camera, laid and levelled as docs/your-camera.md says ("In another program"), rows from the top; a camera that is missing is left out, but one is needed. Neutral
-    // pictures may be null.
+    // Grey pictures by camera, laid and levelled as docs/your-camera.md says ("In another program"), rows from the top;
+    // a camera that is missing is left out, but one is needed. Neutral pictures may be null.
     public Answer Predict(
         IReadOnlyDictionary<string, byte[]> pictures, IReadOnlyDictionary<string, byte[]> neutral = null)
     {

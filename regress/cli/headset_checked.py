@@ -9,6 +9,7 @@ import numpy as np
 from facegen.console import say
 from regress.runtime.headset.fitness.fitness import FEWEST_FRAMES, checked_rows, judge
 from regress.runtime.headset.fitness.misfits import Misfit
+from regress.runtime.headset.fitness.shape import without_bars
 from regress.runtime.headset.network.predictor import HeadsetPredictor
 from regress.runtime.headset.pictures.faults import fault_sentences
 from regress.runtime.headset.pictures.placement import CameraPlacement
@@ -25,6 +26,9 @@ _UNSURE = {
     Misfit.NOSE,
 }
 """What a person has to look at: of exchanged cables a placement would turn the gaze to the wrong side."""
+
+_SET_RIGHT = {Misfit.UPSIDE_DOWN, Misfit.SIDEWAYS, Misfit.PLACED, Misfit.BARS, Misfit.SHRUNK}
+"""What a placement that is taken sets right: to advise it would be too late."""
 
 
 def checked_footage(paths: Mapping[str, Path], *, bits: int | None) -> dict[str, np.ndarray]:
@@ -60,19 +64,32 @@ def placed_by_search(
     }
     for name in footage.keys() - enough.keys():
         say(
-            f"{name}: --placement auto has too few frames or too old a model to look for a place; all of it is seen"
+            f"{name}: --placement auto has too few frames or too old a model to look for a place; "
+            f"{_seen_unplaced(footage[name])}"
         )
     placements = {}
     for one in judge(predictor, enough) if enough else ():
+        unsure = one.found is None or bool(_UNSURE & {finding.misfit for finding in one.findings})
         for finding in one.findings:
-            say(finding.sentence)
-        unsure = _UNSURE & {finding.misfit for finding in one.findings}
-        if one.found is None or unsure:
-            say(f"{one.camera}: --placement auto is not sure of a place, and all of each picture is seen")
+            if unsure or finding.misfit not in _SET_RIGHT:
+                say(finding.sentence)
+        if unsure:
+            say(
+                f"{one.camera}: --placement auto is not sure of a place, and "
+                f"{_seen_unplaced(footage[one.camera])}"
+            )
             continue
         placed = placements[one.camera] = replace(one.placement, aspect=recorded_aspect(footage[one.camera]))
+        left = " of what its bars leave" if any(placed.cut) else ""
+        stretched = f", its pixels {placed.stretch:g} times as wide as high" if placed.stretch != 1 else ""
         say(
-            f"{one.camera}: placed at {100 * placed.x:.0f} % of the width and {100 * placed.y:.0f} % of the height, "
-            f"size {placed.size:.2f}, turned by {placed.roll_deg:.0f}°; `regress headset check --sheet` shows it"
+            f"{one.camera}: placed at {100 * placed.x:.0f} % of the width and {100 * placed.y:.0f} % of the height"
+            f"{left}{stretched}, size {placed.size:.2f}, turned by {placed.roll_deg:.0f}°; `regress headset check "
+            f"--sheet` shows it"
         )
     return placements
+
+
+def _seen_unplaced(pictures: np.ndarray) -> str:
+    """What is seen of pictures (n, h, w) that nobody places, in words."""
+    return f"all of each picture{' but its bars' if any(without_bars(pictures).cut) else ''} is seen"

@@ -207,8 +207,10 @@ class HeadsetPipeline(Pipeline):
                 )
         for name in self.stages["soundness"].barred:
             if name in (sample.pictures or {}):
-                found[name] = (
-                    f"{name}: its pictures have bars; `regress headset check` finds a --placement that leaves them out"
+                # beside what else is to be said of the camera
+                found[f"bars of {name}"] = (
+                    f"{name}: its pictures have bars, which are seen as a part of the face; `regress headset check` "
+                    f"finds a --placement that leaves them out"
                 )
         for name in self._alone:
             if name in (sample.pictures or {}):

@@ -25,8 +25,10 @@ from regress.runtime.headset.person.person import (
     kept_openness,
     packed_picture,
     read_person,
+    seen_as,
     write_person,
 )
+from regress.runtime.headset.pictures.placement import CameraPlacement
 from regress.runtime.sample import EyeMeasures
 
 TAKE = Path(__file__).parents[3] / "docs" / "samples" / "headset"
@@ -386,3 +388,12 @@ def test_a_placement_is_looked_through_and_another_models_is_refused(run, tmp_pa
         code, _, said = run(*order, "--placement", place)
         assert (code, said.count("\n"), "found with another network" in said) == (2, 1, True), said
     assert not (tmp_path / "w.csv").exists()
+
+
+@pytest.mark.parametrize("other", [{"stretch": 2.0}, {"cut": (0.0, 0.1, 0.0, 0.1)}])
+def test_a_person_knows_of_stretch_and_cut_and_older_files_still_fit(other: dict):
+    plain = {"left_eye": CameraPlacement(x=0.4)}
+    changed = {"left_eye": CameraPlacement(x=0.4, **other)}
+    assert seen_as(changed, None) != seen_as(plain, None)
+    # as persons' files have it that were written before placements had a stretch and a cut
+    assert seen_as(plain, None).startswith("b12c293bc702df7f")

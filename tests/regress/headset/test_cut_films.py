@@ -1,5 +1,7 @@
 """Films that were cut or damaged: what can be read counts, what lacks is told, and FFmpeg is quiet about it."""
 
+import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +11,7 @@ import numpy as np
 import pytest
 
 from regress.runtime.even_rows import even_rows
+from regress.runtime.headset.recordings.film_frames import Film
 from regress.runtime.headset.recordings.recording import Recording, read_recording
 
 FRAMES = 60
@@ -44,6 +47,38 @@ def test_a_film_that_ends_early_is_told(tmp_path: Path, some: bool):
     assert 10 < len(recording.pictures) < 0.6 * FRAMES
     assert recording.note.startswith(f"left_eye: its film says that it has {FRAMES} frames, and ends")
     assert some or f"after {len(recording.pictures)};" in recording.note
+
+
+def without_every_third(path: Path) -> None:
+    """Make every third frame of a Matroska film a void element, as if the camera had dropped it; times stay."""
+    content = bytearray(path.read_bytes())
+    block = re.compile(
+        rb"\xa3([\x80-\xff]|[\x40-\x7f].|[\x20-\x3f]..|[\x10-\x1f]...)\x81..\x80(?=\xff\xd8)", re.DOTALL
+    )
+    found = [each.start() for each in block.finditer(bytes(content))]
+    assert len(found) > 0.9 * FRAMES
+    for start in found[1::3]:
+        content[start] = 0xEC
+    path.write_bytes(content)
+
+
+@pytest.mark.parametrize("ends", ["whole", "early"])
+def test_frames_that_a_camera_dropped_do_not_lack_from_a_film_that_only_knows_how_long_it_lasts(
+    tmp_path: Path, ends: str
+):
+    path = film(tmp_path / "eye.mkv")
+    without_every_third(path)
+    with Film(path) as opened:
+        assert opened.length == FRAMES
+    recording = read(path if ends == "whole" else cut(path, 0.5))
+    assert len(recording.pictures) < 0.7 * FRAMES
+    assert ("and ends or cannot be decoded" in recording.note) == (ends == "early")
+
+
+def test_what_ffmpeg_is_asked_to_say_is_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("OPENCV_FFMPEG_LOGLEVEL", "16")
+    read(film(tmp_path / "eye.avi"))
+    assert os.environ["OPENCV_FFMPEG_LOGLEVEL"] == "16"
 
 
 def test_ffmpeg_writes_nothing_of_a_damaged_film(tmp_path: Path):

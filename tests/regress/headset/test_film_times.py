@@ -7,6 +7,7 @@ import cv2
 import numpy as np
 import pytest
 
+from regress.errors import InputError
 from regress.runtime.headset.recordings.film_times import times_beside
 from regress.runtime.headset.recordings.footage import Footage, line_up
 from regress.runtime.headset.recordings.recording import read_recording
@@ -57,6 +58,29 @@ def test_eyes_that_began_apart_are_matched_by_their_clock(
     right = read_recording(tmp_path / "right_eye.avi", "right_eye", width=64, height=64)
     np.testing.assert_array_equal(footage.pictures["left_eye"], left.pictures[6:])
     np.testing.assert_array_equal(footage.pictures["right_eye"], right.pictures[:-6])
+
+
+@pytest.mark.parametrize("same_clock", [True, False])
+def test_a_film_with_a_clock_and_pictures_named_by_it_are_matched_by_it(tmp_path: Path, same_clock: bool):
+    """Of two clocks that share no time nothing is known."""
+    began_s = 1_700_000_000.0
+    film(tmp_path / "left_eye.avi", seed=0)
+    as_seconds(tmp_path / "left_eye_timestamps", (began_s if same_clock else 4000.0) + np.arange(FRAMES) / 30)
+    (tmp_path / "right_eye").mkdir()
+    random = np.random.default_rng(1)
+    for time_s in began_s + 0.2 + np.arange(FRAMES) / 30:
+        picture = random.integers(40, 200, (64, 64), dtype=np.uint8)
+        assert cv2.imwrite(str(tmp_path / "right_eye" / f"{time_s:.6f}.png"), picture)
+    paths = {"left_eye": tmp_path / "left_eye.avi", "right_eye": tmp_path / "right_eye"}
+    recordings = {name: read_recording(path, name, width=64, height=64) for name, path in paths.items()}
+    if not same_clock:
+        with pytest.raises(InputError, match="nothing in common"):
+            line_up(recordings, SIZES)
+        return
+    footage = line_up(recordings, SIZES)
+    assert len(footage.numbers) == FRAMES - 6
+    np.testing.assert_array_equal(footage.pictures["left_eye"], recordings["left_eye"].pictures[6:])
+    np.testing.assert_array_equal(footage.pictures["right_eye"], recordings["right_eye"].pictures[:-6])
 
 
 def test_beside_a_film_without_one_a_clock_begins_with_the_film(tmp_path: Path):

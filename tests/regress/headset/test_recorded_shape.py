@@ -124,6 +124,19 @@ def test_predict_places_by_itself_what_check_is_sure_of(run, tmp_path: Path):
 
 
 @pytest.mark.slow
+def test_what_auto_sets_right_is_not_advised_and_bars_are_told(run, tmp_path: Path):
+    pictures = recorded("left_eye", 4)
+    seen = {"sure": pictures, "mirrored": pictures[:, :, ::-1], "few": pictures[:10]}
+    for what, one in seen.items():
+        options = write_take(tmp_path / what, {"left_eye": np.pad(one, ((0, 0), (20, 20), (0, 0)))})
+        code, _, said = run("headset", "predict", "headset-tracking3", *options, "--placement", "auto")
+        assert code == 0
+        assert ("take --placement" in said) == (what == "mirrored"), said
+        assert ("all of each picture but its bars is seen" in said) == (what != "sure"), said
+        assert ("of what its bars leave" in said) == (what == "sure"), said
+
+
+@pytest.mark.slow
 def test_a_dataset_needs_no_placement(run, tmp_path: Path):
     (tmp_path / "renders").mkdir()
     code, _, said = run("headset", "predict", "headset-tracking3", tmp_path, "--placement", "auto")

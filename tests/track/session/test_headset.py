@@ -213,7 +213,7 @@ def test_a_slow_cameras_picture_stays_the_same_array_in_grey():
     assert grey[2] is not grey[1]
 
 
-def test_bars_are_told_once():
+def test_bars_are_told_once_beside_what_else_is_to_be_said():
     """A program between camera and `track` puts them there, and all of a picture is then half of a face."""
     said = []
     session = headset_session(said)
@@ -223,6 +223,8 @@ def test_bars_are_told_once():
     for name in HEADSET:
         (told,) = [line for line in said if line.startswith(f"{name}: its pictures have bars")]
         assert "--placement" in told
+        shape = [line for line in said if line.startswith(f"{name}: ") and "another shape than" in line]
+        assert len(shape) == 1, "which the bars make it"
 
 
 def test_pictures_that_are_not_square_are_seen_whole_and_told_once():

@@ -153,7 +153,12 @@ def seen_as(places: Mapping[str, CameraPlacement], told: np.ndarray | None) -> s
 
     Levels are left out: they follow a person's pictures.
     """
-    views = {name: (one.x, one.y, one.size, one.roll_deg, one.mirror) for name, one in places.items()}
+    views = {
+        # only where they are something, so that files of before there were any still fit
+        name: (one.x, one.y, one.size, one.roll_deg, one.mirror)
+        + ((one.stretch, list(one.cut)) if one.stretch != 1 or any(one.cut) else ())
+        for name, one in places.items()
+    }
     terms = None if told is None else np.round(told.astype(np.float64), 6).tolist()
     return hashlib.sha256(json.dumps([views, terms], sort_keys=True).encode()).hexdigest()
 

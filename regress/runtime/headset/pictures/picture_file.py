@@ -84,7 +84,7 @@ def read_picture(
     if isinstance(grey, Fault):
         return FittedPicture(picture=np.zeros((height, width), dtype=np.uint8), fault=grey, scaled_from=None)
     if grey.dtype != np.uint8:
-        grey = _eight_bits(grey, path, bits)
+        grey = eight_bits(grey, path, bits)
     return fit_picture(half_of(grey, half), width=width, height=height, placement=placement)
 
 
@@ -109,7 +109,14 @@ def decoded(path: Path) -> np.ndarray | Fault:
     return Fault.UNREADABLE if grey is None else grey
 
 
-def _eight_bits(grey: np.ndarray, path: Path, bits: int | None) -> np.ndarray:
+def eight_bits(grey: np.ndarray, path: Path, bits: int | None) -> np.ndarray:
+    """Grey levels of 16 bits, of which a camera uses so many, as uint8.
+
+    Raises
+    ------
+    InputError
+        As ``read_picture`` does.
+    """
     if grey.dtype != np.uint16:
         raise InputError(f"{path} has pixels of type {grey.dtype}; pictures of 8 or 16 bits can be read")
     if bits is None:

@@ -17,6 +17,13 @@ from regress.runtime.even_rows import even_rows
 _FEWER = 0.02
 """Share of a film's frames, and two at least, that may be lacking untold: some containers estimate their number."""
 
+_BETWEEN = 8
+"""Frames from one to the next that are looked at where a film does not say how many there are."""
+
+_COUNTED = (".avi", ".mp4", ".m4v", ".mov", ".3gp")
+"""Films that say how many frames they have. Of others OpenCV takes how long they last times their rate, which frames
+that a camera dropped on the way are not lacking from: those end early whose last frame does."""
+
 _QUIET = "-8"
 """FFmpeg's AV_LOG_QUIET: of a damaged film it writes a line a frame, and OpenCV asks once, at the first opening."""
 
@@ -64,8 +71,9 @@ class Film:
 
     def __init__(self, path: Path) -> None:
         check_film_path(path)
-        os.environ["OPENCV_FFMPEG_LOGLEVEL"] = _QUIET
+        os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", _QUIET)
         self.ended_after: int | None = None
+        self._last_s = 0.0
         self._path, self._film = path, cv2.VideoCapture(os.fspath(path))
         self._film.set(cv2.CAP_PROP_ORIENTATION_AUTO, 1)
         fps, length = (self._film.get(each) for each in (cv2.CAP_PROP_FPS, cv2.CAP_PROP_FRAME_COUNT))
@@ -85,7 +93,11 @@ class Film:
     @property
     def lacking(self) -> str:
         """That frames are lacking that it says it has, in words; empty where none are."""
-        if self.ended_after is None or self.length - self.ended_after <= max(2, _FEWER * self.length):
+        fewer = max(2, _FEWER * self.length)
+        if self.ended_after is None or self.length - self.ended_after <= fewer:
+            return ""
+        counted = self._path.suffix.lower() in _COUNTED
+        if not counted and self.fps is not None and self.length - 1 - self._last_s * self.fps <= fewer:
             return ""
         return (
             f"its film says that it has {self.length} frames, and ends or cannot be decoded after {self.ended_after}; "
@@ -93,7 +105,13 @@ class Film:
         )
 
     def spread(self, count: int) -> Iterator[np.ndarray]:
-        """So many grey pictures all over the film, as far as it can be wound; before its frames are read."""
+        """So many grey pictures all over the film, as far as it can be wound; before its frames are read.
+
+        Of a film that does not say how long it is they are from its beginning.
+        """
+        if not self.length:
+            yield from (frame.grey for frame in self.frames(set(range(0, count * _BETWEEN, _BETWEEN))))
+            return
         for row in even_rows(self.length, count):
             self._film.set(cv2.CAP_PROP_POS_FRAMES, float(row))
             try:
@@ -124,6 +142,7 @@ class Film:
                 if not self._film.grab():
                     self.ended_after = number
                     return
+                self._last_s = self._film.get(cv2.CAP_PROP_POS_MSEC) / 1000
                 if chosen is not None and number not in chosen:
                     continue
                 there, frame = self._film.retrieve()
@@ -132,7 +151,7 @@ class Film:
                     return
                 yield FilmFrame(
                     number=number,
-                    time_s=self._film.get(cv2.CAP_PROP_POS_MSEC) / 1000,
+                    time_s=self._last_s,
                     grey=_grey(frame),
                 )
         except cv2.error as error:

@@ -76,13 +76,25 @@ def _timed(recording: Recording) -> Recording:
 
 
 def _on_one_clock(recordings: dict[str, Recording]) -> dict[str, Recording]:
-    """The recordings, whose films with times of a clock begin at 0 where not all have some."""
+    """The recordings, whose films with times of a clock begin at 0 where not all have some.
+
+    Names of pictures tell times of a clock too, which may be another one.
+    """
     if all(each.clock for each in recordings.values()):
+        return recordings
+    named = all(each.clock or (not each.film and each.time_s is not None) for each in recordings.values())
+    if named and _share_time(recordings):
         return recordings
     return {
         name: replace(each, time_s=each.time_s - each.time_s[0]) if each.clock else each
         for name, each in recordings.items()
     }
+
+
+def _share_time(recordings: Mapping[str, Recording]) -> bool:
+    """Whether there is a time at which all record."""
+    first_s = max(each.time_s[0] for each in recordings.values())
+    return bool(first_s <= min(each.time_s[-1] for each in recordings.values()))
 
 
 def _begun(recording: Recording) -> Recording:

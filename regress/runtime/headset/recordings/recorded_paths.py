@@ -12,7 +12,7 @@ from regress.runtime.even_rows import even_rows
 from regress.runtime.headset.pictures.bars import LOOKED_AT, bars_of
 from regress.runtime.headset.pictures.faults import Fault
 from regress.runtime.headset.pictures.halves import half_of, half_size, split_half
-from regress.runtime.headset.pictures.picture_file import PICTURES, decoded, whole_of_shape
+from regress.runtime.headset.pictures.picture_file import PICTURES, decoded, eight_bits, whole_of_shape
 from regress.runtime.headset.pictures.placement import NO_CUT, CameraPlacement
 from regress.runtime.headset.recordings.film_frames import Film
 
@@ -67,23 +67,23 @@ def recorded_size(path: Path) -> tuple[int, int]:
     return half_size((width, height), half)
 
 
-def whole_of(path: Path, view: tuple[int, int]) -> CameraPlacement | None:
+def whole_of(path: Path, view: tuple[int, int], *, bits: int | None = None) -> CameraPlacement | None:
     """All of the pictures of a folder, a film or a file, where most have another shape than a view (width, height).
 
-    Bars at the edges of a folder's or a film's pictures are left out.
+    Bars at the edges of a folder's or a film's pictures are left out; ``bits`` is as ``read_picture`` takes it.
     """
     try:
         if path.suffix.lower() in PICTURES:
             size, cut = _size_of(path), NO_CUT
         else:
             size = recorded_size(path)
-            cut = _recorded_bars(path, size)
+            cut = _recorded_bars(path, size, bits)
     except InputError:  # not one can be read, which is told of each
         return None
     return None if size is None else whole_of_shape(size, view, cut)
 
 
-def _recorded_bars(path: Path, size: tuple[int, int]) -> tuple[float, ...]:
+def _recorded_bars(path: Path, size: tuple[int, int], bits: int | None) -> tuple[float, ...]:
     """What bars take of pictures (width, height) of a folder or a film: see `bars_of`."""
     path, half = without_half(path)
     if path.is_dir():
@@ -92,8 +92,9 @@ def _recorded_bars(path: Path, size: tuple[int, int]) -> tuple[float, ...]:
     else:
         with Film(path) as film:
             pictures = list(film.spread(LOOKED_AT))
-    # of 16 bits a pixel nobody has said how many a camera uses
-    grey = [half_of(one, half) for one in pictures if isinstance(one, np.ndarray) and one.dtype == np.uint8]
+    sound = [one for one in pictures if isinstance(one, np.ndarray)]
+    eight = [one if one.dtype == np.uint8 else eight_bits(one, path, bits) for one in sound]
+    grey = [half_of(one, half) for one in eight]
     alike = [one for one in grey if one.shape == size[::-1]]
     return bars_of(np.stack(alike)) if alike else NO_CUT
 

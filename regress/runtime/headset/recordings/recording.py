@@ -130,7 +130,7 @@ def read_recording(
     if not stat.S_ISDIR(kind) and (not stat.S_ISREG(kind) or path.suffix.lower() not in FILMS):
         raise InputError(f"{path} is neither a folder nor a film; films end in {', '.join(FILMS)}")
     size = width, height
-    whole = None if placement is not None or as_recorded else whole_of(named, size)
+    whole = None if placement is not None or as_recorded else whole_of(named, size, bits=bits)
     if stat.S_ISDIR(kind):
         recording = _read_folder(path, camera, size, bits, placement or whole, choose, half)
     else:
