@@ -159,7 +159,10 @@ def test_the_wheel_alone_predicts_as_recorded(installed, tmp_path: Path):
         cwd=tmp_path,
     )
     assert (done.returncode, done.stdout) == (0, "")
-    assert done.stderr.startswith("weights.csv: 1,800 frames of 52 weights")
+    blinks, written = done.stderr.splitlines()
+    assert blinks.startswith("the fullest blinks read ")
+    assert blinks.endswith(" and are stretched towards 1")
+    assert written.startswith("weights.csv: 1,800 frames of 52 weights")
     assert_face_as_recorded(tmp_path / "weights.csv")
 
 

@@ -48,6 +48,8 @@ def test_a_page_that_nobody_sees_costs_the_session_nothing_and_goes_on_when_it_i
             await stand.publish_until("document.querySelector('#cameras canvas')")
         assert await stand.tab.ask("step.value") == "smile"
         await stand.tab.ask(f"{HIDDEN}(true), {HIDDEN}(false)")  # before the line is closed
+        await asyncio.sleep(0.5)  # the page says "live" of the line before until that is closed
+        await watched(stand, True)
         await stand.publish_until("connection.dataset.state === 'live'")
         assert stand.page.watched
 

@@ -125,8 +125,8 @@ def line_up(
     """
     if not recordings:
         raise InputError(f"no camera is given; the model has {', '.join(sizes)}")
-    notes = [recording.note for recording in recordings.values() if recording.note]
-    notes += [note for each in recordings.values() for note in _scaling_note(each, sizes, still=still)]
+    own = [recording.note for recording in recordings.values() if recording.note]
+    notes = [note for each in recordings.values() for note in _scaling_note(each, sizes, still=still)]
     matched = match(recordings, from_start=from_start, still=still, fps=fps)
     notes += matched.notes
     numbers, count = matched.numbers, len(matched.numbers)
@@ -150,16 +150,18 @@ def line_up(
         seen = {name: pictures[name] for name in recordings}
         _mark_frozen(seen, faults, matched)
         pictures |= seen
+    found_out = []
     for name in sizes:
         if name in recordings:
-            notes += fault_sentences(name, numbers, faults[name])
+            found_out += fault_sentences(name, numbers, faults[name])
         else:
-            notes.append(
+            found_out.append(
                 f"{name}: not given; its shapes come from the other cameras as far as these know them"
             )
     source = ", ".join(dict.fromkeys(recording.source for recording in recordings.values()))
     if not any(fault is None for name in sizes for fault in faults[name]):
-        raise InputError(f"{source}: no picture is usable: {'; '.join(notes)}")
+        # what to do about it stands in recordings' own notes: last, as a terminal is told no long sentence's middle
+        raise InputError(f"{source}: no picture is usable: {'; '.join([*notes, *found_out, *own])}")
     return Footage(
         cameras=tuple(sizes),
         numbers=numbers,
@@ -167,7 +169,7 @@ def line_up(
         faults={name: tuple(found) for name, found in faults.items()},
         time_s=matched.time_s,
         source=source,
-        notes=tuple(notes),
+        notes=(*own, *notes, *found_out),
         scaled_from=scaled_from,
         placement={
             name: recording.placement
